@@ -1,0 +1,1 @@
+//! What the curvatures of a groom say: coil radius, pitch, handedness, turns, clusters.

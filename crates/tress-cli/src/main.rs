@@ -1,0 +1,2 @@
+//! The program `tress`.
+fn main() {}

@@ -1,0 +1,1 @@
+//! Polylines to super-helices.

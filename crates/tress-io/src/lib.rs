@@ -1,0 +1,1 @@
+//! Grooms in and out of the files that artists use.

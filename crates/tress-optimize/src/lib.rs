@@ -1,0 +1,1 @@
+//! Sculpting: super-helices moved to anchors by optimisation.

@@ -1,0 +1,1 @@
+//! Editing coiled hair in curvature space: the facade.
