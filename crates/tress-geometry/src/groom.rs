@@ -263,7 +263,7 @@ mod tests {
     #[test]
     fn selecting_takes_attributes_along() {
         let picked = groom().select(&[2, 0]);
-        assert!((values[0] - 2.0).abs() + (values[2] - 5.0).abs() < 1e-15);
+        assert_eq!(picked.strands().points()[0], DVec3::new(2.0, 1.0, 2.0));
         assert_eq!(picked.strand_attributes().get("id"), Some(&Column::Int(vec![12, 10])));
         let widths = Column::scalar(vec![4.0, 5.0, 6.0, 1.0, 3.0]);
         assert_eq!(picked.point_attributes().get("width"), Some(&widths));
