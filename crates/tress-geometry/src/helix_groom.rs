@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use crate::groom::check_rows;
-use crate::{Attributes, Element, Frame, GroomError, Strands, SuperHelix, UpAxis};
+use crate::{Attributes, Column, Element, Frame, GroomError, Strands, SuperHelix, UpAxis};
 
 /// Strands that could not become helices, as they came.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -181,6 +181,42 @@ impl HelixGroom {
         let entry = self.kept.strands.binary_search(&u32::try_from(i).ok()?).ok()?;
         Some((entry, self.kept.polylines.strand(entry)))
     }
+
+    /// The strands named, ascending and each once, with their attributes.
+    ///
+    /// # Panics
+    ///
+    /// If a strand is not there, or they do not ascend.
+    #[must_use]
+    pub fn select(&self, strands: &[usize]) -> Self {
+        let elements = self.elements.select(strands.iter().copied());
+        let n_joints = elements.points().len() + elements.len();
+        let joints = || strands.iter().flat_map(|&i| self.joint_range(i));
+        let kept = strands.iter().enumerate();
+        let kept: Vec<(usize, usize)> =
+            kept.filter_map(|(to, &from)| Some((to, self.kept_polyline(from)?.0))).collect();
+        let entries = || kept.iter().map(|&(_, entry)| entry);
+        let polylines = self.kept.polylines.select(entries());
+        let points = || entries().flat_map(|entry| self.kept.polylines.range(entry));
+        let kept = Kept {
+            strands: kept.iter().map(|&(to, _)| u32::try_from(to).unwrap_or(u32::MAX)).collect(),
+            point_attributes: self
+                .kept
+                .point_attributes
+                .map(polylines.points().len(), |column| column.select(points())),
+            polylines,
+        };
+        let rows = |column: &Column| column.select(strands.iter().copied());
+        Self::with_attributes(
+            strands.iter().map(|&i| self.roots[i]).collect(),
+            elements,
+            self.strand_attributes.map(strands.len(), rows),
+            self.joint_attributes.map(n_joints, |column| column.select(joints())),
+            kept,
+        )
+        .expect("rows were taken along with their strands")
+        .in_space(self.unit, self.up)
+    }
 }
 
 fn check_kept(kept: &Kept, strands: usize) -> Result<(), GroomError> {
@@ -220,6 +256,16 @@ mod tests {
             Some((0, 1))
         );
         assert_eq!(groom.joint_range(2), 3..6);
+    }
+
+    #[test]
+    fn selecting_takes_kept_strands_along() {
+        let groom = parts(vec![1]).expect("strand 1 is there");
+        let picked = groom.select(&[1, 2]);
+        assert_eq!((picked.len(), picked.strand(1).elements.len()), (2, 2));
+        assert!(picked.kept_polyline(0).is_some() && picked.kept_polyline(1).is_none());
+        assert_eq!(groom.select(&[0]).kept().strands, [0_u32; 0]);
+        assert_eq!(groom.select(&[0]).select(&[]).len(), 0);
     }
 
     #[test]
