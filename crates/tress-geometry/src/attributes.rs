@@ -72,6 +72,21 @@ pub enum ColumnError {
         /// Numbers a row.
         components: usize,
     },
+    /// Tables that are to be joined do not have the same columns.
+    ///
+    /// ```
+    /// # use tress_geometry::{Attributes, Column, ColumnError};
+    /// let mut with = Attributes::new(1);
+    /// with.insert("width", Column::scalar(vec![0.1]))?;
+    /// let error = with.append(&Attributes::new(2)).unwrap_err();
+    /// assert_eq!(error, ColumnError::Unlike { name: "width".into() });
+    /// # Ok::<(), ColumnError>(())
+    /// ```
+    #[error("attribute {name:?} is not there, or not of the same kind, in all parts")]
+    Unlike {
+        /// The attribute that is not in both.
+        name: String,
+    },
 }
 
 impl Column {
@@ -159,6 +174,19 @@ impl Column {
         }
     }
 
+    /// The rows of this column and behind them those of `other`, which must be of the same kind.
+    fn append(&mut self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Int(rows), Self::Int(more)) => rows.extend_from_slice(more),
+            (
+                Self::Float { components, values },
+                Self::Float { components: same, values: more },
+            ) if components == same => values.extend_from_slice(more),
+            _ => return false,
+        }
+        true
+    }
+
     fn check(&self, name: &str, expected: usize) -> Result<(), ColumnError> {
         if let Self::Float { components, values } = self
             && (*components == 0 || !values.len().is_multiple_of(*components))
@@ -239,6 +267,27 @@ impl Attributes {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.columns.is_empty()
+    }
+
+    /// Appends the rows of another table with the same columns.
+    ///
+    /// # Errors
+    ///
+    /// If a column is missing in one of them or of another kind; nothing is appended then.
+    pub fn append(&mut self, other: &Self) -> Result<(), ColumnError> {
+        let names = || self.columns.keys().chain(other.columns.keys());
+        let unlike = |name: &&String| match (self.columns.get(*name), other.columns.get(*name)) {
+            (Some(a), Some(b)) => !a.select([]).append(&b.select([])),
+            _ => true,
+        };
+        if let Some(name) = names().find(unlike) {
+            return Err(ColumnError::Unlike { name: name.clone() });
+        }
+        for (name, column) in &mut self.columns {
+            column.append(&other.columns[name]);
+        }
+        self.rows += other.rows;
+        Ok(())
     }
 
     /// The same columns with other rows, each made by `change`.

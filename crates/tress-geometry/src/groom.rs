@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use crate::{Attributes, Column, ColumnError, Strands};
+use crate::{Attributes, Column, ColumnError, OffsetsError, Strands};
 
 /// The axis that points away from the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -76,6 +76,35 @@ pub enum GroomError {
         /// Strands given.
         strands: usize,
     },
+}
+
+/// Why grooms cannot be joined to one.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum JoinError {
+    /// The parts are in different units or have different axes up.
+    #[error("the parts do not agree on {0}")]
+    Space(&'static str),
+    /// The parts have different attributes.
+    #[error(transparent)]
+    Attributes(#[from] ColumnError),
+    /// Together they have more points than offsets can tell apart.
+    #[error(transparent)]
+    Offsets(#[from] OffsetsError),
+}
+
+/// An error unless two parts are in the same unit with the same axis up.
+pub(crate) fn check_space(
+    a: (Option<f64>, Option<UpAxis>),
+    b: (Option<f64>, Option<UpAxis>),
+) -> Result<(), JoinError> {
+    if a.0 != b.0 {
+        return Err(JoinError::Space("the unit"));
+    }
+    if a.1 != b.1 {
+        return Err(JoinError::Space("the axis that is up"));
+    }
+    Ok(())
 }
 
 /// An error unless the table has the rows it should.
@@ -221,6 +250,32 @@ impl Groom {
         self.up = Some(up);
         self.positions_mut().iter_mut().for_each(|p| *p = turn(*p));
         self
+    }
+
+    /// Appends the strands of another groom.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use tress_geometry::{Groom, Strands};
+    ///
+    /// let mut groom = Groom::new(Strands::from_counts([1], vec![DVec3::X])?);
+    /// groom.append(&Groom::new(Strands::from_counts([1], vec![DVec3::Y])?))?;
+    /// assert_eq!(groom.strands().strand(1), [DVec3::Y]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If the other is in another unit, has another axis up or other attributes, or if both have
+    /// too many points; this groom is then as it was.
+    pub fn append(&mut self, other: &Self) -> Result<(), JoinError> {
+        check_space((self.unit, self.up), (other.unit, other.up))?;
+        let mut joined = self.clone();
+        joined.point_attributes.append(&other.point_attributes)?;
+        joined.strand_attributes.append(&other.strand_attributes)?;
+        joined.strands.append(&other.strands)?;
+        *self = joined;
+        Ok(())
     }
 
     /// The strands named, in that order, with their attributes.

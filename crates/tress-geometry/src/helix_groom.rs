@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use crate::groom::check_rows;
+use crate::groom::{JoinError, check_rows, check_space};
 use crate::{Attributes, Column, Element, Frame, GroomError, Strands, SuperHelix, UpAxis};
 
 /// Strands that could not become helices, as they came.
@@ -182,6 +182,27 @@ impl HelixGroom {
         Some((entry, self.kept.polylines.strand(entry)))
     }
 
+    /// Appends the strands of another groom.
+    ///
+    /// # Errors
+    ///
+    /// If the other is in another unit, has another axis up or other attributes, or if both have
+    /// too many elements; this groom is then as it was.
+    pub fn append(&mut self, other: &Self) -> Result<(), JoinError> {
+        check_space((self.unit, self.up), (other.unit, other.up))?;
+        let mut joined = self.clone();
+        let first = u32::try_from(self.len()).unwrap_or(u32::MAX);
+        joined.strand_attributes.append(&other.strand_attributes)?;
+        joined.joint_attributes.append(&other.joint_attributes)?;
+        joined.kept.point_attributes.append(&other.kept.point_attributes)?;
+        joined.elements.append(&other.elements)?;
+        joined.kept.polylines.append(&other.kept.polylines)?;
+        joined.kept.strands.extend(other.kept.strands.iter().map(|strand| first + strand));
+        joined.roots.extend_from_slice(&other.roots);
+        *self = joined;
+        Ok(())
+    }
+
     /// The strands named, ascending and each once, with their attributes.
     ///
     /// # Panics
@@ -241,7 +262,7 @@ mod tests {
     fn parts(kept: Vec<u32>) -> Result<HelixGroom, GroomError> {
         let elements = Strands::from_counts([1, 0, 2], vec![Element::default(); 3]).unwrap();
         let n = kept.len();
-        let polylines = Strands::from_counts(vec![1; n], vec![DVec3::NAN; n]).unwrap();
+        let polylines = Strands::from_counts(vec![1; n], vec![DVec3::ONE; n]).unwrap();
         let kept = Kept { strands: kept, polylines, point_attributes: Attributes::new(n) };
         let tables = (Attributes::new(3), Attributes::new(6));
         HelixGroom::with_attributes(vec![Frame::IDENTITY; 3], elements, tables.0, tables.1, kept)
@@ -266,6 +287,17 @@ mod tests {
         assert!(picked.kept_polyline(0).is_some() && picked.kept_polyline(1).is_none());
         assert_eq!(groom.select(&[0]).kept().strands, [0_u32; 0]);
         assert_eq!(groom.select(&[0]).select(&[]).len(), 0);
+    }
+
+    #[test]
+    fn parts_joined_are_the_whole() {
+        let groom = parts(vec![1]).expect("strand 1 is there");
+        let mut joined = groom.select(&[0]);
+        joined.append(&groom.select(&[1, 2])).expect("parts of one groom are alike");
+        assert_eq!(joined, groom);
+        let error = joined.append(&groom.clone().in_space(Some(1.0), None));
+        assert_eq!(error, Err(JoinError::Space("the unit")));
+        assert_eq!(joined, groom);
     }
 
     #[test]

@@ -52,6 +52,6 @@ pub use chain::SuperHelix;
 pub use derivative::{ChainScratch, adjoint, jacobian};
 pub use element::Element;
 pub use frame::Frame;
-pub use groom::{Groom, GroomError, UpAxis};
+pub use groom::{Groom, GroomError, JoinError, UpAxis};
 pub use helix_groom::{HelixGroom, Kept};
 pub use strands::{OffsetsError, Strands};

@@ -128,6 +128,26 @@ impl<T> Strands<T> {
         Ok(())
     }
 
+    /// Appends all strands of another set.
+    ///
+    /// # Errors
+    ///
+    /// If 32 bits no longer tell the points apart; the strands are then as they were.
+    pub fn append(&mut self, other: &Self) -> Result<(), OffsetsError>
+    where
+        T: Clone,
+    {
+        let before = self.points.len();
+        let points = before + other.points.len();
+        if u32::try_from(points).is_err() {
+            return Err(OffsetsError::TooMany { points });
+        }
+        let last = self.offsets[self.offsets.len() - 1];
+        self.offsets.extend(other.offsets[1..].iter().map(|offset| last + offset));
+        self.points.extend_from_slice(&other.points);
+        Ok(())
+    }
+
     /// How many strands there are.
     #[must_use]
     pub fn len(&self) -> usize {
