@@ -43,11 +43,15 @@
 //! never starts a thread.
 
 pub mod alembic;
+mod basis_curves;
 mod binary;
+mod chain;
+mod columns;
 mod counts;
 pub mod ct2hair;
 pub mod data;
 mod error;
+mod foreign;
 mod format;
 pub mod hair;
 mod loss;
@@ -57,6 +61,7 @@ pub mod npz;
 pub mod obj;
 pub mod ply;
 mod read;
+mod text;
 pub mod tfx;
 pub mod usd;
 mod write;
