@@ -1,0 +1,158 @@
+//! What a fit is asked for.
+
+use serde::{Deserialize, Serialize};
+
+/// How [`fit`](crate::fit) turns a polyline into a super-helix.
+///
+/// ```
+/// use tress_fit::{Elements, FitOptions, Tolerance};
+///
+/// let options = FitOptions { elements: Elements::Count(90), ..FitOptions::default() };
+/// assert!(options.validate().is_ok());
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FitOptions {
+    /// How many elements a strand gets. Default: one a segment.
+    pub elements: Elements,
+    /// How tangents at the points are found. Default: from the circle through three points.
+    pub tangents: TangentRule,
+    /// What moves to make neighbours co-helical. Default: the points.
+    pub floating: Floating,
+    /// The refinement that follows the arcs; `None` leaves them as they are, which is faster.
+    pub refine: Option<Refine>,
+}
+
+/// How many elements a strand gets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum Elements {
+    /// One for each segment of the polyline that has a length.
+    #[default]
+    PerSegment,
+    /// Exactly so many for every strand, however many points it has.
+    Count(usize),
+    /// As few as keep all points this near.
+    Tolerance(Tolerance),
+}
+
+/// How far a point may be from the fit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Tolerance {
+    /// A length, in the unit of the groom.
+    Length(f64),
+    /// A fraction of the strand's own coil radius: 0.02 is 2 %.
+    OfRadius(f64),
+}
+
+/// How tangents at the points of a polyline are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum TangentRule {
+    /// Uniform Catmull-Rom: along the chord between the neighbours.
+    Uniform,
+    /// Centripetal Catmull-Rom: knots spaced by the square roots of segments' lengths.
+    Centripetal,
+    /// The tangent of the circle through a point and its neighbours (chordal Catmull-Rom).
+    #[default]
+    Circle,
+}
+
+impl TangentRule {
+    /// The power of a segment's length by which its knots are spaced.
+    #[must_use]
+    pub fn knot_exponent(self) -> f64 {
+        match self {
+            Self::Uniform => 0.0,
+            Self::Centripetal => 0.5,
+            Self::Circle => 1.0,
+        }
+    }
+}
+
+/// What moves to make neighbouring points and tangents co-helical.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Floating {
+    /// Points move, tangents stay.
+    #[default]
+    Points,
+    /// Tangents turn, points stay.
+    Tangents,
+}
+
+/// How a fit is refined against the points.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Refine {
+    /// Greatest number of steps.
+    pub steps: usize,
+}
+
+impl Default for Refine {
+    fn default() -> Self {
+        Self { steps: 8 }
+    }
+}
+
+/// Why options cannot be followed.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FitOptionsError {
+    /// A strand needs an element.
+    ///
+    /// ```
+    /// # use tress_fit::{Elements, FitOptions, FitOptionsError};
+    /// let none = FitOptions { elements: Elements::Count(0), ..FitOptions::default() };
+    /// assert_eq!(none.validate(), Err(FitOptionsError::NoElements));
+    /// ```
+    #[error("a strand cannot have 0 elements")]
+    NoElements,
+    /// More elements a strand than a groom can number.
+    ///
+    /// ```
+    /// # use tress_fit::{Elements, FitOptions, FitOptionsError};
+    /// let many = FitOptions { elements: Elements::Count(1 << 20), ..FitOptions::default() };
+    /// assert_eq!(many.validate(), Err(FitOptionsError::TooManyElements { count: 1 << 20 }));
+    /// ```
+    #[error("{count} elements a strand are more than {}", FitOptions::MOST_ELEMENTS)]
+    TooManyElements {
+        /// Elements asked for.
+        count: usize,
+    },
+    /// A tolerance must be a positive number.
+    ///
+    /// ```
+    /// # use tress_fit::{Elements, FitOptions, FitOptionsError, Tolerance};
+    /// let elements = Elements::Tolerance(Tolerance::Length(0.0));
+    /// let exact = FitOptions { elements, ..FitOptions::default() };
+    /// assert_eq!(exact.validate(), Err(FitOptionsError::Tolerance { value: 0.0 }));
+    /// ```
+    #[error("the tolerance {value} is not a positive number")]
+    Tolerance {
+        /// The tolerance given.
+        value: f64,
+    },
+}
+
+impl FitOptions {
+    /// More elements a strand are refused: a slip of the hand would otherwise fill the memory.
+    pub const MOST_ELEMENTS: usize = 100_000;
+
+    /// Whether the options can be followed.
+    ///
+    /// # Errors
+    ///
+    /// See [`FitOptionsError`].
+    pub fn validate(&self) -> Result<(), FitOptionsError> {
+        match self.elements {
+            Elements::Count(0) => Err(FitOptionsError::NoElements),
+            Elements::Count(count) if Self::MOST_ELEMENTS < count => {
+                Err(FitOptionsError::TooManyElements { count })
+            }
+            Elements::Tolerance(Tolerance::Length(value) | Tolerance::OfRadius(value))
+                if !(0.0 < value && value.is_finite()) =>
+            {
+                Err(FitOptionsError::Tolerance { value })
+            }
+            _ => Ok(()),
+        }
+    }
+}
