@@ -21,11 +21,13 @@
 mod cluster;
 mod defects;
 mod quantiles;
+mod quantity;
 mod strand;
 mod summary;
 
 pub use cluster::{ClusterError, Clusters, k_means, root_tip_features};
 pub use defects::{Defects, LONG_SEGMENT, defects};
 pub use quantiles::Quantiles;
+pub use quantity::{Quantity, QuantityValues, UnknownQuantity, quantity};
 pub use strand::{Hand, StrandMeasures, measure};
 pub use summary::{GroomSummary, summarize};

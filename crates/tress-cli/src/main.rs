@@ -1,2 +1,44 @@
-//! The program `tress`.
-fn main() {}
+//! The program `tress`: parse the command line, call the layers, report.
+//!
+//! Exit status: 0 done, 2 wrong usage, 1 anything else, with one line on standard error. Standard
+//! output holds the report and nothing else; progress goes to standard error when that is a
+//! terminal.
+
+mod args;
+mod commands;
+mod failure;
+mod progress;
+mod report;
+mod source;
+mod target;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::args::Cli;
+use crate::failure::Failure;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    match run(&cli) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            failure.print();
+            failure.exit_code()
+        }
+    }
+}
+
+fn run(cli: &Cli) -> Result<(), Failure> {
+    if let Some(threads) = cli.everywhere.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global()
+            .map_err(|error| Failure::Failed(format!("no {threads} threads: {error}")))?;
+    }
+    let started = std::time::Instant::now();
+    let mut report = commands::run(&cli.command, &cli.everywhere)?;
+    report.set("seconds", (started.elapsed().as_secs_f64() * 1e3).round() / 1e3);
+    report.print(&cli.everywhere)
+}

@@ -7,7 +7,9 @@
 use glam::DVec3;
 
 use crate::groom::{JoinError, check_rows, check_space};
-use crate::{Attributes, Column, Element, Frame, GroomError, Strands, SuperHelix, UpAxis};
+use crate::{
+    Attributes, Column, ColumnError, Element, Frame, GroomError, Strands, SuperHelix, UpAxis,
+};
 
 /// Strands that could not become helices, as they came.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -159,6 +161,32 @@ impl HelixGroom {
     #[must_use]
     pub fn joint_attributes(&self) -> &Attributes {
         &self.joint_attributes
+    }
+
+    /// Attaches a column with one row a strand; one of the same name is replaced.
+    ///
+    /// # Errors
+    ///
+    /// If there is not one row a strand.
+    pub fn insert_strand_attribute(
+        &mut self,
+        name: impl Into<String>,
+        column: Column,
+    ) -> Result<(), ColumnError> {
+        self.strand_attributes.insert(name, column).map(drop)
+    }
+
+    /// Attaches a column with one row a joint; one of the same name is replaced.
+    ///
+    /// # Errors
+    ///
+    /// If there is not one row a joint.
+    pub fn insert_joint_attribute(
+        &mut self,
+        name: impl Into<String>,
+        column: Column,
+    ) -> Result<(), ColumnError> {
+        self.joint_attributes.insert(name, column).map(drop)
     }
 
     /// Where the joints of strand `i` lie in the attributes of joints.

@@ -35,6 +35,8 @@
 //!
 //! This crate never reads a file, never draws a random number and never starts a thread.
 
+pub use glam;
+
 mod attributes;
 mod chain;
 pub mod curves;

@@ -1,0 +1,47 @@
+//! The measurements, one file a topic.
+
+mod formats;
+
+use std::path::PathBuf;
+
+use crate::Outcome;
+use crate::metric::{Figures, say};
+
+/// A set of measurements: the names it may print, and what runs it.
+struct Suite {
+    /// What the names of its figures begin with.
+    names: &'static [&'static str],
+    run: fn(&mut Figures) -> Outcome,
+}
+
+const SUITES: [Suite; 1] = [Suite { names: formats::NAMES, run: formats::run }];
+
+/// Runs the suites that have a figure whose name begins with one of the arguments, or all.
+pub(crate) fn run(args: &[String]) -> Outcome {
+    let mut names = Vec::new();
+    let (mut json, mut baseline) = (None, None);
+    let mut rest = args.iter();
+    while let Some(arg) = rest.next() {
+        match arg.as_str() {
+            "--json" => json = rest.next().map(PathBuf::from),
+            "--baseline" => baseline = rest.next().map(PathBuf::from),
+            name => names.push(name),
+        }
+    }
+    let mut figures = Figures::against(baseline.as_deref())?;
+    let wanted = |suite: &&Suite| {
+        let begins = |name: &&str| suite.names.iter().any(|n| n.starts_with(name));
+        names.is_empty() || names.iter().any(|name| begins(&name))
+    };
+    for suite in SUITES.iter().filter(wanted) {
+        (suite.run)(&mut figures)?;
+    }
+    figures.write(&json.unwrap_or_else(|| crate::grooms::root().join("target/bench.json")))?;
+    match figures.missed() {
+        0 => Ok(()),
+        missed => {
+            say(&format!("# {missed} figures missed their bars"));
+            Ok(())
+        }
+    }
+}

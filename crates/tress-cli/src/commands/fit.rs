@@ -1,0 +1,47 @@
+//! `tress fit`: polylines to super-helices.
+
+use tress::io::{Format, Model};
+
+use crate::args::{Everywhere, FitCommandArgs};
+use crate::failure::Failure;
+use crate::progress::Progress;
+use crate::report::{Report, count, short};
+use crate::source::{self, Curved};
+use crate::target;
+
+pub(crate) fn run(args: &FitCommandArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
+    if target::check(&[&args.input], &args.output, everywhere)? != Format::Tress {
+        let file = args.output.display();
+        let message = format!("{file}: super-helices go to a .tress file; `tress convert` and `tress sample` write polylines");
+        return Err(Failure::Usage(message));
+    }
+    let progress = Progress::new(3, everywhere);
+    let mut report = Report::default();
+    report.set("input", &args.input);
+    let Model::Polylines(groom) = source::read(&args.input, &progress)? else {
+        let file = args.input.display();
+        return Err(Failure::Failed(format!("{file} holds super-helices already")));
+    };
+    let groom = source::share(groom, everywhere);
+    let curved = Curved::fit(&groom, &args.fit.options(), &progress)?;
+    say_fit(&curved, &mut report);
+    let (sampling, format) = Default::default();
+    target::write_curved(&args.output, &curved, &sampling, &format, &progress, &mut report)?;
+    Ok(report)
+}
+
+/// Says how near a fit is, and which strands it passed by.
+pub(crate) fn say_fit(curved: &Curved, report: &mut Report) {
+    let Some(fit) = &curved.fit else { return };
+    report.set("fit", fit);
+    let deviation = fit.deviation;
+    let (rms, greatest) = (short(deviation.rms), short(deviation.greatest));
+    report.say("fitted", format!("{} strands", count(fit.strands)));
+    report.say("distance", format!("rms {rms}, greatest {greatest}"));
+    let percent = short(100.0 * deviation.length_change);
+    report.say("length change", format!("{percent} % at most"));
+    for (reason, n) in &fit.kept {
+        let n = count(*n);
+        report.say("kept", format!("{n} strands {} as they are", reason.describe()));
+    }
+}

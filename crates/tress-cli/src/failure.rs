@@ -1,0 +1,41 @@
+//! Why a command did not do what it was told, in one line.
+
+use std::process::ExitCode;
+
+use anstyle::{AnsiColor, Style};
+
+/// What goes to standard error, and with which exit status.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The command line asks for what cannot be: exit status 2.
+    Usage(String),
+    /// Anything else: exit status 1.
+    Failed(String),
+}
+
+impl Failure {
+    /// Prints the line, coloured on terminals.
+    pub(crate) fn print(&self) {
+        let (Self::Usage(message) | Self::Failed(message)) = self;
+        print_error(message);
+    }
+
+    pub(crate) fn exit_code(&self) -> ExitCode {
+        match self {
+            Self::Usage(_) => ExitCode::from(2),
+            Self::Failed(_) => ExitCode::FAILURE,
+        }
+    }
+}
+
+impl<E: std::error::Error> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+#[expect(clippy::print_stderr, reason = "errors are for the person at the terminal")]
+fn print_error(message: &str) {
+    let red = Style::new().bold().fg_color(Some(AnsiColor::Red.into()));
+    anstream::eprintln!("{red}error:{red:#} {message}");
+}

@@ -1,0 +1,102 @@
+//! Writing what a command made.
+
+use std::fs;
+use std::path::Path;
+
+use tress::geometry::Groom;
+use tress::io::{Format, UsdCurves, WriteOptions};
+
+use crate::args::{Everywhere, FormatArgs, SamplingArgs, UsdCurvesArg};
+use crate::failure::Failure;
+use crate::progress::Progress;
+use crate::report::{Report, count};
+use crate::source::Curved;
+
+/// Says no before any work is done: to a format that cannot be written, and to the input itself.
+pub(crate) fn check(
+    inputs: &[&Path],
+    output: &Path,
+    everywhere: &Everywhere,
+) -> Result<Format, Failure> {
+    let format = Format::from_path(output)?;
+    if let Err(advice) = format.writable() {
+        let extension = format.extension();
+        let file = output.display();
+        let message = format!("{file}: .{extension} files are read, not written; {advice}");
+        return Err(Failure::Failed(message));
+    }
+    check_in_place(inputs, output, everywhere)?;
+    Ok(format)
+}
+
+/// Says no to overwriting an input.
+pub(crate) fn check_in_place(
+    inputs: &[&Path],
+    output: &Path,
+    everywhere: &Everywhere,
+) -> Result<(), Failure> {
+    let place = |path: &Path| fs::canonicalize(path).ok();
+    let target = place(output);
+    if everywhere.in_place || target.is_none() || inputs.iter().all(|input| place(input) != target) {
+        return Ok(());
+    }
+    let file = output.display();
+    Err(Failure::Failed(format!("{file} is an input: say --in-place to overwrite it")))
+}
+
+/// Writes super-helices, sampled unless the format holds them as they are.
+pub(crate) fn write_curved(
+    output: &Path,
+    curved: &Curved,
+    sampling: &SamplingArgs,
+    format: &FormatArgs,
+    progress: &Progress,
+    report: &mut Report,
+) -> Result<(), Failure> {
+    if Format::from_path(output)? == Format::Tress {
+        if sampling.is_given() {
+            let message = "--points and --spacing mean polylines; a .tress file has none";
+            return Err(Failure::Usage(message.into()));
+        }
+        progress.stage(format!("writing {}", output.display()));
+        tress::io::write_helices(output, &curved.helices)?;
+        report.set("output", output);
+        report.set("elements", curved.helices.elements().points().len());
+        let elements = count(curved.helices.elements().points().len());
+        report.say("wrote", format!("{} ({elements} elements)", output.display()));
+        return Ok(());
+    }
+    progress.stage("sampling");
+    write(output, &curved.sample(sampling)?, format, progress, report)
+}
+
+/// Writes polylines, and reports what the format has no place for.
+pub(crate) fn write(
+    output: &Path,
+    groom: &Groom,
+    format: &FormatArgs,
+    progress: &Progress,
+    report: &mut Report,
+) -> Result<(), Failure> {
+    progress.stage(format!("writing {}", output.display()));
+    let lost = tress::io::write(output, groom, &options(format))?;
+    let (strands, points) = (groom.strands().len(), groom.strands().points().len());
+    report.set("output", output);
+    report.set("strands", strands);
+    report.set("points", points);
+    report.set("lost", lost.iter().map(ToString::to_string).collect::<Vec<_>>());
+    let (file, strands, points) = (output.display(), count(strands), count(points));
+    report.say("wrote", format!("{file} ({strands} strands, {points} points)"));
+    for loss in lost {
+        report.say("not carried", loss);
+    }
+    Ok(())
+}
+
+fn options(format: &FormatArgs) -> WriteOptions {
+    let usd_curves = match format.usd_curves {
+        None | Some(UsdCurvesArg::Linear) => UsdCurves::Linear,
+        Some(UsdCurvesArg::CatmullRom) => UsdCurves::CatmullRom,
+    };
+    WriteOptions { usd_curves }
+}
