@@ -166,8 +166,7 @@ impl BasisCurves {
 
     fn keeps_every_point(&self) -> bool {
         self.wrap != Wrap::Periodic && self.kind == CurveType::Linear
-            || self.wrap == Wrap::Pinned
-                && self.kind == CurveType::Cubic(CubicBasis::CatmullRom)
+            || self.wrap == Wrap::Pinned && self.kind == CurveType::Cubic(CubicBasis::CatmullRom)
     }
 
     fn mix(

@@ -1,6 +1,6 @@
 //! Several batches of curves as one groom.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use tress_geometry::{Attributes, Column, Groom, OffsetsError, Strands, names};
 
@@ -26,13 +26,9 @@ pub(crate) fn join(mut parts: Vec<Groom>) -> Result<Groom, OffsetsError> {
     let points = parts.iter().flat_map(|part| part.strands().points().iter().copied()).collect();
     let mut joined = Groom::new(Strands::from_counts(counts, points)?);
 
-    let mut columns = BTreeMap::new();
-    for (name, _) in parts.iter().flat_map(|part| {
-        part.point_attributes().iter().chain(part.strand_attributes().iter())
-    }) {
-        columns.entry(name.to_owned()).or_insert(());
-    }
-    for name in columns.keys() {
+    let tables = parts.iter().flat_map(|part| [part.point_attributes(), part.strand_attributes()]);
+    let columns: BTreeSet<&str> = tables.flat_map(|table| table.iter().map(|row| row.0)).collect();
+    for &name in &columns {
         let of_strands = collect(&parts, |part| column(part.strand_attributes(), name));
         let (column, of_strands) = match of_strands {
             Some(column) => (Some(column), true),
@@ -45,11 +41,12 @@ pub(crate) fn join(mut parts: Vec<Groom>) -> Result<Groom, OffsetsError> {
         };
         inserted.expect("the parts' rows are the joined rows");
     }
-    let groups = parts.iter().zip(0_i64..).flat_map(|(part, i)| {
-        std::iter::repeat_n(i, part.strands().len())
-    });
+    let groups = parts
+        .iter()
+        .zip(0_i64..)
+        .flat_map(|(part, i)| std::iter::repeat_n(i, part.strands().len()));
     let groups = Column::Int(groups.collect());
-    let taken = columns.contains_key(names::GROUP);
+    let taken = columns.contains(names::GROUP);
     let name = if taken { PRIM } else { names::GROUP };
     joined.insert_strand_attribute(name, groups).expect("one number a strand");
     Ok(joined)

@@ -1,0 +1,4 @@
+//! stub
+pub(super) fn check(_bytes: &[u8]) -> Result<(), String> {
+    Ok(())
+}
