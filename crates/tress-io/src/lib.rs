@@ -70,4 +70,4 @@ pub use error::{EncodeError, ParseError, Place, Problem, ReadError, UnknownExten
 pub use format::{Carries, Columns, Format};
 pub use loss::{Loss, losses};
 pub use read::{Model, read};
-pub use write::{UsdCurves, WriteOptions, write, write_helices};
+pub use write::{UsdCurves, WriteOptions, write, write_bytes, write_helices};

@@ -90,6 +90,15 @@ pub fn write_helices(path: impl AsRef<Path>, groom: &HelixGroom) -> Result<(), W
     })
 }
 
+/// Writes bytes that are no groom, a picture or a report, whole or not at all.
+///
+/// # Errors
+///
+/// If the disk does not take the file; what was there before is then as it was.
+pub fn write_bytes(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), WriteError> {
+    whole(path.as_ref(), |out| Ok(out.write_all(bytes)?))
+}
+
 /// The stream that writers of files write to.
 type Out = BufWriter<NamedTempFile>;
 
