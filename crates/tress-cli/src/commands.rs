@@ -18,13 +18,13 @@ use crate::report::Report;
 pub(crate) fn run(command: &Command, everywhere: &Everywhere) -> Result<Report, Failure> {
     match command {
         Command::Demo(args) => demo::run(args, everywhere),
+        Command::Render(args) => render::run(args, everywhere),
         Command::Info(args) => info::run(args, everywhere),
         Command::Convert(args) => convert::run(args, everywhere),
         Command::Fit(args) => fit::run(args, everywhere),
         Command::Sample(args) => sample::run(args, everywhere),
         Command::Ruffle(args) => ruffle::run(args, everywhere),
         Command::Blend(args) => blend::run(args, everywhere),
-        Command::Render(args) => render::run(args, everywhere),
         Command::Merge(args) => merge::run(args, everywhere),
     }
 }

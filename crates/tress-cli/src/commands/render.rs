@@ -1,0 +1,206 @@
+//! `tress render`: a picture of a groom.
+
+use tress::analysis::{Quantity, QuantityValues, quantity};
+use tress::fit::FitOptions;
+use tress::geometry::{Column, Groom, HelixGroom};
+use tress::io::Model;
+use tress::view::{
+    ColorMap, Coloring, RenderOptions, RgbImage, Scale, Size, StrandWidth, View, png, render,
+};
+
+use crate::args::{Everywhere, RenderArgs, SamplingArgs, ViewArg};
+use crate::failure::Failure;
+use crate::progress::Progress;
+use crate::report::{Report, count};
+use crate::source::{self, Curved};
+use crate::target;
+
+use super::convert::in_space;
+
+pub(crate) fn run(args: &RenderArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
+    if args.output.extension().is_none_or(|extension| extension != "png") {
+        let file = args.output.display();
+        return Err(Failure::Usage(format!("{file}: pictures are written as .png")));
+    }
+    target::check_in_place(&[&args.input], &args.output, everywhere)?;
+    let progress = Progress::new(4, everywhere);
+    let mut report = Report::default();
+    report.set("input", &args.input);
+    let subject = Subject::new(args, everywhere, &progress)?;
+    progress.stage("drawing");
+    let picture = subject.draw(args)?;
+    progress.stage(format!("writing {}", args.output.display()));
+    tress::io::write_bytes(&args.output, &png(&picture)?)?;
+
+    let (width, height) = picture.dimensions();
+    let strands = subject.groom.strands().len();
+    report.set("output", &args.output);
+    report.set("strands", strands);
+    report.set("size", (width, height));
+    let (file, strands) = (args.output.display(), count(strands));
+    report.say("wrote", format!("{file} ({width} x {height} pixels, {strands} strands)"));
+    if let Some((_, scale)) = &subject.values {
+        report.set("scale", scale);
+    }
+    Ok(report)
+}
+
+/// What is drawn: polylines, and the numbers that colour them.
+struct Subject {
+    groom: Groom,
+    values: Option<(Numbers, Scale)>,
+}
+
+/// Numbers that colour hair.
+enum Numbers {
+    Strands(Vec<f64>),
+    Points(Vec<f64>),
+}
+
+impl Subject {
+    fn new(
+        args: &RenderArgs,
+        everywhere: &Everywhere,
+        progress: &Progress,
+    ) -> Result<Self, Failure> {
+        let model = source::read(&args.input, progress)?;
+        let model = match model {
+            Model::Polylines(groom) => {
+                Model::Polylines(in_space(source::share(groom, everywhere), &args.space))
+            }
+            helices @ Model::Helices(_) => helices,
+        };
+        match &args.color_by {
+            None => Ok(Self { groom: polylines(model, progress)?, values: None }),
+            Some(name) => match name.parse::<Quantity>() {
+                Ok(quantity) => Self::by_quantity(model, quantity, progress),
+                Err(unknown) => {
+                    let groom = polylines(model, progress)?;
+                    let Some(numbers) = attribute(&groom, name) else {
+                        let message = format!("{unknown}, and no attribute of the groom is either");
+                        return Err(Failure::Failed(message));
+                    };
+                    let scale = scale(&numbers, name, String::new(), ColorMap::Viridis);
+                    Ok(Self { groom, values: Some((numbers, scale)) })
+                }
+            },
+        }
+    }
+
+    /// Coloured by what super-helices say.
+    fn by_quantity(model: Model, of: Quantity, progress: &Progress) -> Result<Self, Failure> {
+        let (curved, drawn) = match model {
+            Model::Polylines(groom) => {
+                let curved = Curved::fit(&groom, &FitOptions::default(), progress)?;
+                (curved, Some(groom))
+            }
+            Model::Helices(helices) => (Curved { helices, counts: None, fit: None }, None),
+        };
+        progress.stage(format!("measuring {}", of.name()));
+        let (groom, numbers) = match quantity(&curved.helices, of) {
+            QuantityValues::Strands(values) => {
+                let groom = match drawn {
+                    Some(groom) => groom,
+                    None => curved.sample(&SamplingArgs::default())?,
+                };
+                (groom, Numbers::Strands(values))
+            }
+            QuantityValues::Joints(values) => sample_with(curved, values)?,
+        };
+        let map = match of {
+            Quantity::Handedness => ColorMap::PurpleGreen,
+            Quantity::Twist => ColorMap::BlueRed,
+            _ => ColorMap::Viridis,
+        };
+        let mut scale = scale(&numbers, of.title(), unit(of, groom.unit), map);
+        if of == Quantity::Handedness {
+            (scale.min, scale.max) = (-1.0, 1.0);
+        } else if of.is_signed() {
+            scale = scale.symmetric();
+        }
+        Ok(Self { groom, values: Some((numbers, scale)) })
+    }
+
+    fn draw(&self, args: &RenderArgs) -> Result<RgbImage, Failure> {
+        let options = RenderOptions {
+            view: view(args.view),
+            size: Size::new(args.size.0, args.size.1),
+            width: args.width.map_or(StrandWidth::Auto, StrandWidth::Fixed),
+            ..RenderOptions::default()
+        };
+        let coloring = match &self.values {
+            None => Coloring::Natural,
+            Some((Numbers::Strands(values), scale)) => Coloring::Strands(values, scale),
+            Some((Numbers::Points(values), scale)) => Coloring::Points(values, scale),
+        };
+        Ok(render(&self.groom, &coloring, &options)?)
+    }
+}
+
+fn polylines(model: Model, progress: &Progress) -> Result<Groom, Failure> {
+    match model {
+        Model::Polylines(groom) => Ok(groom),
+        Model::Helices(helices) => {
+            progress.stage("sampling");
+            let curved = Curved { helices, counts: None, fit: None };
+            curved.sample(&SamplingArgs::default())
+        }
+    }
+}
+
+/// Samples super-helices along with one number a joint.
+fn sample_with(mut curved: Curved, joints: Vec<f64>) -> Result<(Groom, Numbers), Failure> {
+    const COLORED_BY: &str = "colored by";
+    let helices: &mut HelixGroom = &mut curved.helices;
+    helices.insert_joint_attribute(COLORED_BY, Column::scalar(joints))?;
+    let mut groom = curved.sample(&SamplingArgs::default())?;
+    let values = match groom.remove_point_attribute(COLORED_BY) {
+        Some(column) => column.first_components().collect(),
+        // Polylines that are kept have no joints, and a groom of nothing else has no such column.
+        None => vec![f64::NAN; groom.strands().points().len()],
+    };
+    Ok((groom, Numbers::Points(values)))
+}
+
+/// The first numbers of an attribute of strands or points.
+fn attribute(groom: &Groom, name: &str) -> Option<Numbers> {
+    let strands = groom.strand_attributes().get(name);
+    let points = groom.point_attributes().get(name);
+    match (strands, points) {
+        (Some(column), _) => Some(Numbers::Strands(column.first_components().collect())),
+        (None, Some(column)) => Some(Numbers::Points(column.first_components().collect())),
+        (None, None) => None,
+    }
+}
+
+/// A scale that one stray in a hundred at either end does not stretch.
+fn scale(numbers: &Numbers, title: &str, unit: String, map: ColorMap) -> Scale {
+    let (Numbers::Strands(values) | Numbers::Points(values)) = numbers;
+    let range = Scale::without_strays(values.iter().copied(), 0.01);
+    Scale { title: title.into(), unit, map, ..range }
+}
+
+/// The unit of a quantity in words.
+fn unit(of: Quantity, metres: Option<f64>) -> String {
+    let length = match metres {
+        Some(1.0) => "m",
+        Some(0.01) => "cm",
+        Some(0.001) => "mm",
+        _ => "unit",
+    };
+    match of.length_power() {
+        1 => length.into(),
+        -1 => format!("1/{length}"),
+        _ => String::new(),
+    }
+}
+
+fn view(view: ViewArg) -> View {
+    match view {
+        ViewArg::Front => View::Front,
+        ViewArg::Side => View::Side,
+        ViewArg::Back => View::Back,
+        ViewArg::Top => View::Top,
+        ViewArg::ThreeQuarter => View::ThreeQuarter,
+    }
+}

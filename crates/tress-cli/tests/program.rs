@@ -1,0 +1,260 @@
+//! The program as its users meet it: exit status, what is printed where, files.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tress::geometry::glam::DVec3;
+use tress::geometry::{Groom, Strands};
+use tress::io::{Model, WriteOptions};
+use tress_fixtures::{PatchOptions, coily_patch};
+
+/// A folder with a groom in it, gone when the test ends.
+struct Bench {
+    folder: tempfile::TempDir,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder for temporary files");
+        let options = PatchOptions { wisps: 4, strands_per_wisp: 5, ..PatchOptions::default() };
+        let bench = Self { folder };
+        bench.write("groom.obj", &coily_patch(&options, 1));
+        bench
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn write(&self, name: &str, groom: &Groom) {
+        tress::io::write(self.path(name), groom, &WriteOptions::default()).expect("a good groom");
+    }
+
+    fn groom(&self, name: &str) -> Groom {
+        match tress::io::read(self.path(name)).expect("a readable file") {
+            Model::Polylines(groom) => groom,
+            Model::Helices(_) => panic!("{name} holds super-helices"),
+        }
+    }
+
+    /// Runs `tress` in the folder.
+    fn run(&self, line: &str) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_tress"))
+            .args(line.split_whitespace())
+            .current_dir(self.folder.path())
+            .output()
+            .expect("the program starts")
+    }
+
+    /// Runs `tress`, which must succeed without a word on standard error.
+    fn done(&self, line: &str) -> String {
+        let output = self.run(line);
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success() && errors.is_empty(), "tress {line}: {errors}");
+        String::from_utf8(output.stdout).expect("reports are text")
+    }
+
+    /// Runs `tress`, which must fail with this status and one line on standard error.
+    fn fails(&self, line: &str, status: i32) -> String {
+        let output = self.run(line);
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(status), "tress {line}: {errors}");
+        assert!(output.stdout.is_empty(), "tress {line} printed a report although it failed");
+        assert!(!errors.contains("panicked"), "tress {line}: {errors}");
+        if status == 1 {
+            assert_eq!(errors.trim_end().lines().count(), 1, "tress {line}: {errors}");
+        }
+        errors
+    }
+}
+
+fn bytes(path: &Path) -> Vec<u8> {
+    fs::read(path).expect("the file was written")
+}
+
+#[test]
+fn info_says_what_a_groom_is_like() {
+    let bench = Bench::new();
+    let text = bench.done("info groom.obj");
+    for word in ["strands", "turns", "coil radius", "handedness", "none found"] {
+        assert!(text.contains(word), "{word:?} is missing in:\n{text}");
+    }
+    let json: Value = serde_json::from_str(&bench.done("info groom.obj --json")).expect("JSON");
+    assert_eq!(json["strands"], 20);
+    let radius = json["summary"]["coil_radius"]["median"].as_f64().expect("coils have a radius");
+    assert!((0.4..0.7).contains(&radius), "coil radius {radius}");
+    let summary = &json["summary"];
+    let hands = [&summary["left_handed"], &summary["right_handed"]].map(|n| n.as_u64().unwrap_or(0));
+    assert_eq!(hands[0] + hands[1], 20, "every wisp of the fixture winds one way");
+}
+
+#[test]
+fn the_way_to_super_helices_and_back_keeps_every_strand() {
+    let bench = Bench::new();
+    bench.done("fit groom.obj groom.tress");
+    bench.done("sample groom.tress back.obj --points 60");
+    let (before, after) = (bench.groom("groom.obj"), bench.groom("back.obj"));
+    assert_eq!(after.strands().len(), before.strands().len());
+    for (a, b) in before.strands().iter().zip(after.strands().iter()) {
+        assert_eq!(b.len(), 60);
+        assert!(a[0].distance(b[0]) < 0.05, "the root moved by {}", a[0].distance(b[0]));
+    }
+}
+
+#[test]
+fn ruffling_depends_on_the_seed_and_on_nothing_else() {
+    let bench = Bench::new();
+    let ruffle = |to: &str, options: &str| {
+        bench.done(&format!("ruffle groom.obj {to} --probability 0.3 {options}"));
+        bytes(&bench.path(to))
+    };
+    let one = ruffle("a.obj", "--seed 3 --threads 1");
+    assert_eq!(one, ruffle("b.obj", "--seed 3 --threads 3"));
+    assert_ne!(one, ruffle("c.obj", "--seed 4"));
+    let counts = |name: &str| bench.groom(name).strands().counts().collect::<Vec<_>>();
+    assert_eq!(counts("a.obj"), counts("groom.obj"));
+}
+
+#[test]
+fn shares_joined_are_the_whole() {
+    let bench = Bench::new();
+    for command in ["ruffle groom.obj", "convert groom.obj", "sample groom.obj", "fit groom.obj"] {
+        let end = if command.starts_with("fit") { "tress" } else { "hair" };
+        bench.done(&format!("{command} whole.{end}"));
+        for i in 1..=3 {
+            bench.done(&format!("{command} part{i}.{end} --shard {i}/3"));
+        }
+        bench.done(&format!("merge part1.{end} part2.{end} part3.{end} joined.{end}"));
+        let path = |name: &str| bench.path(&format!("{name}.{end}"));
+        assert_eq!(bytes(&path("joined")), bytes(&path("whole")), "{command}");
+    }
+}
+
+#[test]
+fn strands_that_are_no_curves_pass_through_and_are_counted() {
+    let bench = Bench::new();
+    let nan = DVec3::new(f64::NAN, 1.0, 2.0);
+    let mut strands = Strands::default();
+    for strand in [
+        vec![DVec3::ONE],
+        vec![DVec3::ZERO, nan, DVec3::Y],
+        vec![DVec3::X; 4],
+        vec![DVec3::ZERO, DVec3::Y],
+        vec![DVec3::ZERO, DVec3::Y, DVec3::Y, DVec3::new(1.0, 2.0, 0.0)],
+    ] {
+        strands.push(strand).expect("few points");
+    }
+    bench.write("odd.data", &Groom::new(strands));
+    let text = bench.done("info odd.data");
+    for word in ["of a single point", "not finite", "of no length", "the point before"] {
+        assert!(text.contains(word), "{word:?} is missing in:\n{text}");
+    }
+    bench.done("ruffle odd.data out.data --keep 0 --probability 1");
+    let (before, after) = (bench.groom("odd.data"), bench.groom("out.data"));
+    assert_eq!(after.strands().len(), 5);
+    for i in 0..3 {
+        let points = before.strands().strand(i).iter().zip(after.strands().strand(i));
+        assert!(points.into_iter().all(|(a, b)| a == b || (a.is_nan() && b.is_nan())));
+    }
+    bench.done("fit odd.data odd.tress");
+    bench.done("convert odd.tress again.data --points 9");
+    let counts: Vec<usize> = bench.groom("again.data").strands().counts().collect();
+    assert_eq!(counts, [1, 3, 4, 9, 9]);
+}
+
+#[test]
+fn mistakes_are_told_in_one_line_and_leave_files_alone() {
+    let bench = Bench::new();
+    fs::create_dir(bench.path("folder.obj")).expect("a folder");
+    fs::write(bench.path("broken.data"), [9, 0, 0, 0, 1]).expect("a file");
+    fs::write(bench.path("old.hair"), "old").expect("a file");
+    for (line, status, word) in [
+        ("info nowhere.obj", 1, "nowhere.obj: no such file"),
+        ("info folder.obj", 1, "is a directory"),
+        ("info groom.docx", 1, "unknown extension .docx"),
+        ("info broken.data", 1, "broken.data: byte"),
+        ("convert groom.obj groom.obj", 1, "--in-place"),
+        ("convert groom.obj out.usdc", 1, ".usda"),
+        ("convert groom.obj nowhere/out.hair", 1, "nowhere/out.hair"),
+        ("convert groom.obj out.tfx", 1, "--points"),
+        ("ruffle groom.obj out.obj --groups wisp", 1, "no attribute of strands is called"),
+        ("ruffle groom.obj out.obj --groups clusters:21", 1, "21 clusters"),
+        ("ruffle groom.obj out.obj --probability 2", 1, "expected 0 to 1"),
+        ("blend groom.obj broken.data out.obj", 1, "broken.data"),
+        ("fit groom.obj out.obj", 2, ".tress"),
+        ("fit groom.obj out.tress --elements 0", 1, "0 elements"),
+        ("fit groom.obj out.tress --tolerance -1", 2, "tolerance"),
+        ("sample groom.obj out.obj --points 1", 1, "at least 2"),
+        ("sample groom.obj out.obj --points 9 --spacing 1", 2, "cannot be used with"),
+        ("info groom.obj --threads 0", 2, "1 to 1024"),
+        ("info groom.obj --shard 3/2", 2, "I/N"),
+        ("groom groom.obj", 2, "unrecognized subcommand"),
+        ("", 2, "Usage"),
+    ] {
+        let errors = bench.fails(line, status);
+        assert!(errors.contains(word), "tress {line}: {word:?} is missing in:\n{errors}");
+    }
+    assert_eq!(bytes(&bench.path("old.hair")), b"old");
+    let made: Vec<_> = fs::read_dir(bench.folder.path())
+        .expect("the folder is there")
+        .map(|entry| entry.expect("an entry").file_name().into_string().expect("a plain name"))
+        .collect();
+    assert!(made.iter().all(|name| !name.starts_with("out")), "{made:?}");
+}
+
+#[test]
+fn a_write_that_fails_leaves_the_old_file() {
+    let bench = Bench::new();
+    bench.done("convert groom.obj kept.hair");
+    let before = bytes(&bench.path("kept.hair"));
+    // A strand without points has no place in a .hair file.
+    let strands = Strands::from_counts([2, 0], vec![DVec3::ZERO, DVec3::Y]).expect("two points");
+    bench.write("empty.data", &Groom::new(strands));
+    bench.fails("convert empty.data kept.hair", 1);
+    assert_eq!(bytes(&bench.path("kept.hair")), before);
+}
+
+#[test]
+fn overwriting_the_input_needs_a_word() {
+    let bench = Bench::new();
+    let before = bytes(&bench.path("groom.obj"));
+    bench.fails("ruffle groom.obj groom.obj", 1);
+    assert_eq!(bytes(&bench.path("groom.obj")), before);
+    bench.done("ruffle groom.obj groom.obj --in-place");
+    assert_ne!(bytes(&bench.path("groom.obj")), before);
+}
+
+#[test]
+fn quiet_says_nothing_and_json_says_one_object() {
+    let bench = Bench::new();
+    assert_eq!(bench.done("convert groom.obj a.hair --quiet"), "");
+    for command in [
+        "info groom.obj",
+        "convert groom.obj a.hair",
+        "fit groom.obj a.tress",
+        "sample a.tress b.obj",
+        "ruffle groom.obj c.obj",
+        "blend groom.obj c.obj d.obj",
+        "merge a.hair a.hair e.hair",
+    ] {
+        let text = bench.done(&format!("{command} --json"));
+        let json: Value = serde_json::from_str(&text).expect("one JSON value");
+        assert!(json.is_object() && json["seconds"].is_number(), "{command}: {text}");
+    }
+}
+
+#[test]
+fn half_way_between_a_groom_and_itself_is_itself() {
+    let bench = Bench::new();
+    bench.done("blend groom.obj groom.obj same.obj");
+    bench.done("sample groom.obj sampled.obj --points 50");
+    bench.done("blend groom.obj groom.obj same.obj --points 50");
+    let (a, b) = (bench.groom("sampled.obj"), bench.groom("same.obj"));
+    for (a, b) in a.strands().points().iter().zip(b.strands().points()) {
+        assert!(a.distance(*b) < 1e-9);
+    }
+    bench.done("blend groom.obj groom.obj same.obj --space position");
+    assert_eq!(bench.groom("same.obj"), bench.groom("groom.obj"));
+}
