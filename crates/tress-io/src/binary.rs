@@ -100,6 +100,11 @@ pub(crate) fn point<const SIZE: usize>(item: &[u8; SIZE]) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
+/// Whether numbers are the same, bit for bit.
+pub(crate) fn same<const N: usize>(a: [f64; N], b: [f64; N]) -> bool {
+    a.map(f64::to_bits) == b.map(f64::to_bits)
+}
+
 /// A number as the 32-bit float nearest to it.
 #[expect(clippy::cast_possible_truncation, reason = "narrowing is the point")]
 pub(crate) fn narrow(value: f64) -> [u8; 4] {

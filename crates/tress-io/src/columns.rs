@@ -2,6 +2,7 @@
 
 use tress_geometry::{Column, ColumnError, Groom};
 
+use crate::binary::same;
 use crate::{ParseError, Place, Problem};
 
 /// A column that a format has a place for.
@@ -39,12 +40,17 @@ impl<'a> Rows<'a> {
         std::array::from_fn(|component| self.get(row, component))
     }
 
+    /// All numbers.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = f64> {
+        let numbers = 0..self.column.rows() * self.components;
+        numbers.map(|i| self.get(i / self.components, i % self.components))
+    }
+
     /// The one row that all rows are equal to, bit for bit.
     pub(crate) fn constant<const N: usize>(&self) -> Option<[f64; N]> {
         let n = self.column.rows();
         let first = (0 < n).then(|| self.row::<N>(0))?;
-        let alike = |row| self.row::<N>(row).map(f64::to_bits) == first.map(f64::to_bits);
-        (1..n).all(alike).then_some(first)
+        (1..n).all(|row| same(self.row::<N>(row), first)).then_some(first)
     }
 }
 

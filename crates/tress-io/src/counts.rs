@@ -46,3 +46,15 @@ pub(crate) fn signed_count(count: usize) -> Result<i32, EncodeError> {
         EncodeError::Groom(format!("{count} is more than the 2,147,483,647 that a count may be"))
     })
 }
+
+/// The strands of these vertices; vertices that are in order already are taken as they are.
+pub(crate) fn gather(
+    strands: Strands<u32>,
+    vertices: Vec<DVec3>,
+) -> Result<Strands<DVec3>, ParseError> {
+    let (offsets, indices) = strands.into_parts();
+    let in_order = indices.len() == vertices.len() && (0..).eq(indices.iter().copied());
+    let points =
+        if in_order { vertices } else { indices.iter().map(|&i| vertices[i as usize]).collect() };
+    Strands::new(offsets, points).map_err(too_many)
+}

@@ -89,6 +89,8 @@ pub(crate) const NORMAL: &str = "normal";
 pub(crate) const LABEL: &str = "label";
 /// Name of the column that `TressFX` files hold an inverse mass a point in.
 pub(crate) const INVERSE_MASS: &str = "inverse_mass";
+/// Name of the column that `TressFX` files hold texture coordinates a point in.
+pub(crate) const VERTEX_UV: &str = "vertex_uv";
 
 impl Format {
     /// Every format.
@@ -204,11 +206,17 @@ impl Format {
                 point_columns: Columns::Only(&[(NORMAL, 3), (LABEL, 1)]),
                 ..POSITIONS_ONLY
             },
-            Self::Ply => {
-                Carries { point_columns: Columns::Only(&[(names::COLOR, 3)]), ..POSITIONS_ONLY }
-            }
+            Self::Ply => Carries {
+                point_columns: Columns::Only(&[(names::COLOR, 3), (names::OPACITY, 1)]),
+                ..POSITIONS_ONLY
+            },
             Self::Tfx => Carries {
-                point_columns: Columns::Only(&[(INVERSE_MASS, 1)]),
+                point_columns: Columns::Only(&[
+                    (INVERSE_MASS, 1),
+                    (VERTEX_UV, 2),
+                    (names::COLOR, 3),
+                    (names::OPACITY, 1),
+                ]),
                 strand_columns: Columns::Only(&[(names::WIDTH, 1), (names::ROOT_UV, 2)]),
                 ..POSITIONS_ONLY
             },

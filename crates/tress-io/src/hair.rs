@@ -21,7 +21,7 @@ use std::io::Write;
 
 use tress_geometry::{Column, Groom, Strands, names};
 
-use crate::binary::{Bytes, narrow, narrow_point};
+use crate::binary::{Bytes, narrow, narrow_point, same};
 use crate::columns::{PointValues, Rows, every_point, misfit};
 use crate::counts::too_many;
 use crate::{EncodeError, ParseError, Problem};
@@ -144,7 +144,7 @@ impl<const N: usize> Quantity<N> {
             let column = Column::Float { components: N, values };
             return groom.insert_point_attribute(self.name, column).map_err(misfit);
         }
-        if default == self.unsaid || header.strands == 0 {
+        if same(default, self.unsaid) || header.strands == 0 {
             return Ok(());
         }
         let values = default.map(self.turn).repeat(header.strands);
@@ -158,7 +158,7 @@ impl<const N: usize> Quantity<N> {
             return None;
         }
         let shared = Rows::of_strands(groom, self.name, N)?.constant::<N>()?.map(self.turn);
-        (shared != self.unsaid).then_some(shared)
+        (!same(shared, self.unsaid)).then_some(shared)
     }
 
     /// The flag that says the array follows, and the values it holds.

@@ -24,7 +24,7 @@ use glam::DVec3;
 use tress_geometry::{Groom, Strands};
 
 use crate::chain::chains;
-use crate::counts::too_many;
+use crate::counts::{gather, too_many};
 use crate::text::{Lines, integer, point, quoted, words, write_number};
 use crate::{EncodeError, ParseError, Place, Problem};
 
@@ -131,7 +131,7 @@ impl Contents {
         } else {
             self.elements
         };
-        gather(elements, self.vertices)
+        Ok(Groom::new(gather(elements, self.vertices)?))
     }
 
     /// An index may name a vertex that comes later, so they are checked once all are there.
@@ -184,15 +184,6 @@ const PASSED_OVER: [&[u8]; 34] = [
     b"bzp",
     b"bsp",
 ];
-
-/// The strands of these vertices; vertices that are in order already are taken as they are.
-fn gather(strands: Strands<u32>, vertices: Vec<DVec3>) -> Result<Groom, ParseError> {
-    let (offsets, indices) = strands.into_parts();
-    let in_order = indices.len() == vertices.len() && (0..).eq(indices.iter().copied());
-    let points =
-        if in_order { vertices } else { indices.iter().map(|&i| vertices[i as usize]).collect() };
-    Ok(Groom::new(Strands::new(offsets, points).map_err(too_many)?))
-}
 
 /// Writes positions: for each strand its vertices, then its `l` line, or `p` line if it has a single
 /// point.

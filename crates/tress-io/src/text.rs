@@ -16,8 +16,25 @@ impl<R: BufRead> Lines<R> {
         Self { stream, line: Vec::new(), number: 0 }
     }
 
+    /// The lines that follow so many others.
+    pub(crate) fn after(stream: R, lines: u64) -> Self {
+        Self { number: lines, ..Self::new(stream) }
+    }
+
+    /// The next line that is not blank; `None` at the end of the stream.
+    pub(crate) fn next_written(&mut self) -> Result<Option<&[u8]>, ParseError> {
+        loop {
+            // Borrowed again below: a line returned from a loop would stay borrowed in it.
+            match self.next()? {
+                None => return Ok(None),
+                Some([]) => {}
+                Some(_) => return Ok(Some(trimmed(&self.line))),
+            }
+        }
+    }
+
     /// The next line without its end, LF or CR LF; `None` at the end of the stream.
-    pub(crate) fn next(&mut self) -> Result<Option<&[u8]>, ParseError> {
+    fn next(&mut self) -> Result<Option<&[u8]>, ParseError> {
         self.line.clear();
         self.append().map_err(|error| Problem::Io(error).at(Place::Line(self.number + 1)))?;
         if self.line.is_empty() {
