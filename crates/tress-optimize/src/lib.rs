@@ -1,1 +1,19 @@
 //! Sculpting: super-helices moved to anchors by optimisation.
+
+mod adam;
+mod batch;
+mod chain;
+mod control;
+mod lanes;
+mod levenberg;
+mod normal;
+mod objective;
+mod options;
+mod report;
+mod sculpt;
+
+pub use control::{Control, ControlError};
+pub use objective::Objective;
+pub use options::{Adam, OptionsError, SculptOptions, Solver, Stiffness};
+pub use report::{Energy, Report, Stop};
+pub use sculpt::{SculptError, Sculpted, Sculptor, sculpt, solve};

@@ -1,0 +1,72 @@
+//! What a solver says when it is done.
+
+/// The energy of [CSE 15] in its two terms, both in length^2.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// `sum_k w_k |S(lambda_k) - a_k|^2`, to the anchors within reach.
+    pub anchors: f64,
+    /// `c |q - q0|^2`, weighted.
+    pub bending: f64,
+}
+
+impl Energy {
+    /// Both terms together.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.anchors + self.bending
+    }
+}
+
+/// Why a solver stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Stop {
+    /// The gradient is as small as was asked for.
+    Converged,
+    /// The gradient is as small as was asked for, and so is that of the anchors' term alone while
+    /// an anchor is still away: to first order no change of curvature brings any point nearer to
+    /// its anchor. So it is with a straight strand that is pushed along itself, and with anchors
+    /// that are too far from each other.
+    LocalMinimum,
+    /// No step lowers the energy any more, within rounding.
+    NoDescent,
+    /// As many iterations as were allowed.
+    MaxIterations,
+    /// Adam: the energy is below the residual it stops at.
+    Residual,
+    /// Adam: its patience ran out.
+    NoImprovement,
+}
+
+/// What became of one strand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// Where it started.
+    pub start: Energy,
+    /// Where it ended.
+    pub end: Energy,
+    /// Evaluations of the energy.
+    pub iterations: u32,
+    /// Why it stopped.
+    pub stop: Stop,
+    /// Length of the gradient at the end, in parts of that at the start.
+    pub gradient: f64,
+    /// Greatest distance of a control of positive weight to the anchor that was asked for; in
+    /// length.
+    pub anchor_distance: f64,
+    /// Anchors that no shape of the strand reaches, because they are farther from the root than
+    /// the control's arc length; the strand was stretched towards them.
+    pub unreachable: u32,
+}
+
+impl Report {
+    /// Of a strand without controls.
+    pub(crate) const UNTOUCHED: Self = Self {
+        start: Energy { anchors: 0.0, bending: 0.0 },
+        end: Energy { anchors: 0.0, bending: 0.0 },
+        iterations: 0,
+        stop: Stop::Converged,
+        gradient: 0.0,
+        anchor_distance: 0.0,
+        unreachable: 0,
+    };
+}
