@@ -1,0 +1,188 @@
+//! From strands to pixels: light, shade, and the nearest hair first.
+//!
+//! Within a square of the picture the pieces of hair are taken from front to back. A pixel keeps
+//! the colour so far and the share `T` of it that is still free; a fragment of coverage `a` and
+//! colour `c` adds `T a c` and leaves `T (1 - a)`. Hair that is behind what is full costs nothing,
+//! and is never shaded.
+
+use glam::Vec3;
+use image::RgbImage;
+use rayon::prelude::*;
+use tress_geometry::Strands;
+
+use crate::camera::Size;
+use crate::color::encode;
+use crate::density::Grid;
+use crate::flatten::Vertex;
+use crate::num::index;
+use crate::raster::{Fragment, Piece, tangent};
+use crate::shade::{Fibre, scatter};
+use crate::stage::Stage;
+use crate::tiles::{EDGE, Tiles};
+
+/// A pixel with less than this left free counts as full: a step of an 8-bit colour.
+const FULL: f32 = 1.0 / 256.0;
+
+/// Cells of the shadow grid along its longest side.
+const SHADOW_CELLS: u32 = 200;
+
+/// What a hair is like, by the value its vertices carry.
+pub(crate) trait Paint: Sync {
+    /// Its colour, as linear light, and how far its scales are tilted beyond the usual.
+    fn fibre(&self, value: f32) -> (Vec3, f32);
+}
+
+/// Light that has found its way into the hair.
+struct Shadows {
+    depths: Vec<Grid>,
+    sky: Grid,
+}
+
+impl Shadows {
+    fn new(strands: &Strands<Vertex>, stage: &Stage) -> Self {
+        let hair = Grid::of_hair(strands, SHADOW_CELLS);
+        let coarse = hair.coarser();
+        let (depths, sky) = rayon::join(
+            || stage.lights.par_iter().map(|light| hair.optical_depth(light.towards)).collect(),
+            || coarse.visibility(&sky_directions()),
+        );
+        Self { depths, sky }
+    }
+}
+
+/// The corners of an icosahedron, those above weighing more.
+fn sky_directions() -> Vec<(Vec3, f32)> {
+    let golden = 0.5 * (1.0 + 5.0_f32.sqrt());
+    let mut directions = Vec::new();
+    for a in [-1.0, 1.0] {
+        for b in [-golden, golden] {
+            for v in [Vec3::new(0.0, a, b), Vec3::new(a, b, 0.0), Vec3::new(b, 0.0, a)] {
+                let towards = v.normalize();
+                // Up is minus y.
+                directions.push((towards, 1.0 - 0.7 * towards.y));
+            }
+        }
+    }
+    directions
+}
+
+/// The picture of flattened strands.
+pub(crate) fn draw(
+    strands: &Strands<Vertex>,
+    paint: &impl Paint,
+    stage: &Stage,
+    size: Size,
+) -> RgbImage {
+    let (shadows, tiles) =
+        rayon::join(|| Shadows::new(strands, stage), || Tiles::new(strands, size));
+    let painter = Painter { vertices: strands.points(), paint, stage, shadows };
+    let width = size.width as usize;
+    let mut bytes = vec![0_u8; 3 * width * size.height as usize];
+    let band = 3 * width * EDGE as usize;
+    let bands: Vec<(usize, &mut [u8])> = bytes.chunks_mut(band).enumerate().collect();
+    bands.into_par_iter().for_each(|(row, band)| {
+        let squares: Vec<Square> = (0..tiles.across)
+            .into_par_iter()
+            .map(|column| painter.square(&tiles, row * tiles.across + column))
+            .collect();
+        for (y, line) in band.chunks_exact_mut(3 * width).enumerate() {
+            let pixels = squares.iter().flat_map(|square| square.row(y));
+            for (bytes, light) in line.chunks_exact_mut(3).zip(pixels) {
+                bytes.copy_from_slice(&encode(light));
+            }
+        }
+    });
+    RgbImage::from_raw(size.width, size.height, bytes).unwrap_or_default()
+}
+
+/// The accumulators of one square.
+struct Square {
+    /// Colour so far, and the share left free.
+    pixels: Vec<(Vec3, f32)>,
+    background: Vec3,
+}
+
+impl Square {
+    fn row(&self, y: usize) -> impl Iterator<Item = Vec3> {
+        let edge = EDGE as usize;
+        let row = &self.pixels[y * edge..(y + 1) * edge];
+        row.iter().map(|(color, free)| color + self.background * *free)
+    }
+}
+
+struct Painter<'a, P> {
+    vertices: &'a [Vertex],
+    paint: &'a P,
+    stage: &'a Stage,
+    shadows: Shadows,
+}
+
+impl<P: Paint> Painter<'_, P> {
+    fn square(&self, tiles: &Tiles, tile: usize) -> Square {
+        let edge = EDGE as i32;
+        let left = (tile % tiles.across) as i32 * edge;
+        let top = (tile / tiles.across) as i32 * edge;
+        let mut pixels = vec![(Vec3::ZERO, 1.0_f32); (EDGE * EDGE) as usize];
+        let mut open = pixels.len();
+        for i in self.by_depth(tiles.pieces(tile)) {
+            let Some(piece) = Piece::new(self.vertices, i) else { continue };
+            let mut colors = None;
+            piece.cover(left..left + edge, top..top + edge, |fragment: Fragment| {
+                let (x, y) = (fragment.x - left, fragment.y - top);
+                let (color, free) = &mut pixels[index(y * edge + x)];
+                if *free < FULL {
+                    return;
+                }
+                let [a, b]: [Vec3; 2] =
+                    *colors.get_or_insert_with(|| [i, i + 1].map(|i| self.shade(i)));
+                let here = (a + (b - a) * fragment.along) * round(&fragment);
+                *color += here * (*free * fragment.coverage);
+                *free *= 1.0 - fragment.coverage;
+                if *free < FULL {
+                    open -= 1;
+                }
+            });
+            if open == 0 {
+                break;
+            }
+        }
+        Square { pixels, background: self.stage.background }
+    }
+
+    /// First vertices of pieces, the nearest piece first; equally near ones in their own order.
+    fn by_depth(&self, pieces: impl Iterator<Item = u32>) -> impl Iterator<Item = usize> {
+        let depth = |i: u32| {
+            let i = i as usize;
+            self.vertices[i].position.z + self.vertices[i + 1].position.z
+        };
+        let mut order: Vec<u64> =
+            pieces.map(|i| u64::from(ascending(depth(i))) << 32 | u64::from(i)).collect();
+        order.sort_unstable();
+        order.into_iter().map(|key| (key & u64::from(u32::MAX)) as usize)
+    }
+
+    /// The light that a vertex sends to the viewer.
+    fn shade(&self, i: usize) -> Vec3 {
+        let vertex = &self.vertices[i];
+        let (color, tilt) = self.paint.fibre(vertex.value);
+        let fibre = Fibre { tangent: tangent(self.vertices, i), color, tilt };
+        let mut light = color * self.stage.sky * self.shadows.sky.at(vertex.position);
+        for (source, depth) in self.stage.lights.iter().zip(&self.shadows.depths) {
+            let tau = depth.at(vertex.position);
+            light += scatter(&self.stage.material, &fibre, source, tau);
+        }
+        light
+    }
+}
+
+/// Bits that ascend as the numbers do.
+fn ascending(x: f32) -> u32 {
+    let bits = x.to_bits();
+    if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
+}
+
+/// How much darker a hair is off its axis, once it is wide enough for its roundness to be seen.
+fn round(fragment: &Fragment) -> f32 {
+    let seen = ((fragment.radius - 0.6) / 1.5).clamp(0.0, 1.0);
+    1.0 - 0.55 * seen * fragment.off_axis * fragment.off_axis
+}

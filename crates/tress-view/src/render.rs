@@ -1,0 +1,318 @@
+//! A groom, and how it is to be seen, to a picture.
+
+use std::borrow::Cow;
+
+use glam::Vec3;
+use image::{Rgb as Pixel, RgbImage, imageops};
+use serde::{Deserialize, Serialize};
+use tress_geometry::{Groom, OffsetsError, UpAxis};
+
+use crate::camera::{Camera, Size, View};
+use crate::color::{HairColor, Rgb, decode};
+use crate::draw::{Paint, draw};
+use crate::flatten::{Dress, flatten};
+use crate::legend::{self, NO_VALUE, legend};
+use crate::num::narrow;
+use crate::scale::Scale;
+use crate::stage::Stage;
+use crate::width::{StrandWidth, has_width, radii, sensible_width};
+
+/// How a groom is to be seen.
+///
+/// ```
+/// use tress_view::{RenderOptions, View};
+///
+/// let options: RenderOptions = ron::from_str("(view: Back, hair: Dyed((200, 60, 30)))")?;
+/// assert_eq!(options, RenderOptions {
+///     view: View::Back,
+///     hair: tress_view::HairColor::Dyed([200, 60, 30]),
+///     ..RenderOptions::default()
+/// });
+/// # Ok::<(), ron::de::SpannedError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RenderOptions {
+    /// From where. Default the front.
+    pub view: View,
+    /// Pixels of the picture, legend included. Default 1200 by 1200.
+    pub size: Size,
+    /// The hair's colour, where it is not coloured by values. Default dark brown.
+    pub hair: HairColor,
+    /// The hair's width. Default the groom's own, or a sensible one.
+    pub width: StrandWidth,
+    /// What is seen where there is no hair. Default a warm light grey.
+    pub background: Rgb,
+    /// Share of the picture's shorter side that is left free around the groom. Default 0.05.
+    pub margin: f64,
+}
+
+impl Default for RenderOptions {
+    fn default() -> Self {
+        Self {
+            view: View::default(),
+            size: Size::new(1200, 1200),
+            hair: HairColor::default(),
+            width: StrandWidth::default(),
+            background: [236, 233, 228],
+            margin: 0.05,
+        }
+    }
+}
+
+/// What the hair's colour says.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Coloring<'a> {
+    /// Nothing: natural hair, of the colour that the options give.
+    #[default]
+    Natural,
+    /// One number a strand, shown by a scale. NaN is drawn grey.
+    Strands(&'a [f64], &'a Scale),
+    /// One number a point, shown by a scale. NaN is drawn grey.
+    Points(&'a [f64], &'a Scale),
+}
+
+/// Why there is no picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// No pixels, or more than 2^28.
+    ///
+    /// ```
+    /// # use tress_geometry::{Groom, Strands};
+    /// # use tress_view::{Coloring, RenderError, RenderOptions, Size, render};
+    /// let flat = RenderOptions { size: Size::new(100, 0), ..RenderOptions::default() };
+    /// let error = render(&Groom::new(Strands::default()), &Coloring::Natural, &flat).unwrap_err();
+    /// assert_eq!(error, RenderError::Size { width: 100, height: 0 });
+    /// ```
+    #[error("a picture of {width} x {height} pixels cannot be made")]
+    Size {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+    },
+    /// Not one value a strand or a point.
+    ///
+    /// ```
+    /// # use tress_geometry::{Groom, Strands};
+    /// # use tress_view::{Coloring, RenderError, RenderOptions, Scale, render};
+    /// let coloring = Coloring::Strands(&[1.0], &Scale::default());
+    /// let bald = Groom::new(Strands::default());
+    /// let error = render(&bald, &coloring, &RenderOptions::default()).unwrap_err();
+    /// assert_eq!(error, RenderError::Values { values: 1, of: "strands", expected: 0 });
+    /// ```
+    #[error("{values} values for {expected} {of}")]
+    Values {
+        /// Values given.
+        values: usize,
+        /// Strands or points.
+        of: &'static str,
+        /// How many of them there are.
+        expected: usize,
+    },
+    /// More pieces of hair than can be told apart: billions.
+    #[error(transparent)]
+    TooMuchHair(#[from] OffsetsError),
+}
+
+/// Draws a groom as hair, seen whole from the view that the options name.
+///
+/// Y is taken for up where the groom does not say. Coordinates that are not finite break a strand;
+/// strands of fewer than two points are not seen.
+///
+/// ```
+/// use glam::DVec3;
+/// use tress_geometry::{Groom, Strands};
+/// use tress_view::{Coloring, RenderOptions, Size, render};
+///
+/// let strand = |i: u32| [0.0, 1.0].map(|y| DVec3::new(f64::from(i), 90.0 * y, 0.0));
+/// let groom = Groom::new(Strands::from_counts([2; 90], (0..90).flat_map(strand).collect())?);
+/// let options = RenderOptions { size: Size::new(120, 120), ..RenderOptions::default() };
+/// let image = render(&groom, &Coloring::Natural, &options)?;
+/// let (hair, corner) = (image.get_pixel(60, 60), image.get_pixel(0, 0));
+/// assert_eq!(corner.0, options.background);
+/// assert!(hair.0 < corner.0, "dark hair on a light ground");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// If the picture has no or too many pixels, or the values do not match the groom.
+pub fn render(
+    groom: &Groom,
+    coloring: &Coloring<'_>,
+    options: &RenderOptions,
+) -> Result<RgbImage, RenderError> {
+    let pictures = render_alike(&[(groom, *coloring)], options)?;
+    Ok(pictures.into_iter().next().unwrap_or_default())
+}
+
+/// Draws several grooms as [`render`] does, all by one camera that sees all of them and with one
+/// width of hair, so that their pictures can be compared.
+///
+/// A groom whose up axis is another than the first one's is turned to that.
+///
+/// # Errors
+///
+/// As [`render`].
+pub fn render_alike(
+    subjects: &[(&Groom, Coloring<'_>)],
+    options: &RenderOptions,
+) -> Result<Vec<RgbImage>, RenderError> {
+    check_size(options.size)?;
+    let Some((first, _)) = subjects.first() else { return Ok(Vec::new()) };
+    let grooms: Vec<Cow<'_, Groom>> =
+        subjects.iter().map(|(groom, _)| turned_like(groom, first.up)).collect();
+    let natural = subjects.iter().all(|(_, coloring)| matches!(coloring, Coloring::Natural));
+    let legend_height = if natural { 0 } else { legend::height(options.size) };
+    let Size { width, height } = options.size;
+    let seen = Size::new(width, height - legend_height);
+    let up = first.up.unwrap_or(UpAxis::Y);
+    let points = grooms.iter().flat_map(|groom| groom.strands().points().iter().copied());
+    let camera = Camera::fit(points, up, options.view, seen, options.margin);
+    let options = &RenderOptions { width: common_width(&grooms, options.width), ..*options };
+    let with_legend = |groom: &Groom, coloring: &Coloring<'_>| {
+        let picture = render_seen_by(&camera, groom, coloring, options)?;
+        let mut whole = RgbImage::from_pixel(width, height, Pixel(options.background));
+        imageops::replace(&mut whole, &picture, 0, 0);
+        if let Coloring::Strands(values, scale) | Coloring::Points(values, scale) = coloring
+            && 0 < legend_height
+        {
+            let missing = missing(coloring, values);
+            let strip = legend(scale, missing.as_deref(), options.size, options.background);
+            imageops::replace(&mut whole, &strip, 0, i64::from(seen.height));
+        }
+        Ok(whole)
+    };
+    grooms.iter().zip(subjects).map(|(groom, (_, coloring))| with_legend(groom, coloring)).collect()
+}
+
+/// The groom with this axis up, where both axes are known.
+fn turned_like(groom: &Groom, up: Option<UpAxis>) -> Cow<'_, Groom> {
+    match up {
+        Some(up) if groom.up.is_some_and(|own| own != up) => Cow::Owned(groom.clone().with_up(up)),
+        _ => Cow::Borrowed(groom),
+    }
+}
+
+/// The width that the first groom would choose for itself, for all that bring none.
+fn common_width(grooms: &[Cow<'_, Groom>], width: StrandWidth) -> StrandWidth {
+    match (width, grooms) {
+        (StrandWidth::Auto, [first, _, ..]) if !has_width(first) => {
+            StrandWidth::Fixed(sensible_width(first))
+        }
+        _ => width,
+    }
+}
+
+/// Draws a groom as a camera sees it, without a legend; the options' view, size and margin are the
+/// camera's.
+///
+/// # Errors
+///
+/// As [`render`].
+pub fn render_seen_by(
+    camera: &Camera,
+    groom: &Groom,
+    coloring: &Coloring<'_>,
+    options: &RenderOptions,
+) -> Result<RgbImage, RenderError> {
+    check_size(camera.size())?;
+    let background = decode(options.background);
+    let radii = radii(groom, options.width, camera);
+    match coloring {
+        Coloring::Natural => {
+            let values = each_point(groom, |i| chance(i as u64));
+            let flat = flatten(groom.strands(), &Dress { radii, values }, camera)?;
+            let paint = Natural(options.hair.linear());
+            Ok(draw(&flat, &paint, &Stage::natural(background), camera.size()))
+        }
+        Coloring::Strands(values, scale) => {
+            check_values(values, "strands", groom.strands().len())?;
+            let values = each_point(groom, |i| place(scale, values[i]));
+            let flat = flatten(groom.strands(), &Dress { radii, values }, camera)?;
+            Ok(draw(&flat, &Mapped::new(scale), &Stage::plain(background), camera.size()))
+        }
+        Coloring::Points(values, scale) => {
+            check_values(values, "points", groom.strands().points().len())?;
+            let values = values.iter().map(|&value| place(scale, value)).collect();
+            let flat = flatten(groom.strands(), &Dress { radii, values }, camera)?;
+            Ok(draw(&flat, &Mapped::new(scale), &Stage::plain(background), camera.size()))
+        }
+    }
+}
+
+fn check_size(size: Size) -> Result<(), RenderError> {
+    let Size { width, height } = size;
+    let pixels = u64::from(width) * u64::from(height);
+    if (1..=1 << 28).contains(&pixels) { Ok(()) } else { Err(RenderError::Size { width, height }) }
+}
+
+fn check_values(values: &[f64], of: &'static str, expected: usize) -> Result<(), RenderError> {
+    let values = values.len();
+    if values == expected { Ok(()) } else { Err(RenderError::Values { values, of, expected }) }
+}
+
+/// A strand's number at each of its points.
+fn each_point(groom: &Groom, number: impl Fn(usize) -> f32) -> Vec<f32> {
+    let strands = groom.strands().counts().enumerate();
+    strands.flat_map(|(i, n)| std::iter::repeat_n(number(i), n)).collect()
+}
+
+/// Where a value lies on the scale, NaN where there is none.
+fn place(scale: &Scale, value: f64) -> f32 {
+    scale.place(value).map_or(f32::NAN, narrow)
+}
+
+/// Words for the values that are not there.
+fn missing(coloring: &Coloring<'_>, values: &[f64]) -> Option<String> {
+    let count = values.iter().filter(|value| value.is_nan()).count();
+    let of = if matches!(coloring, Coloring::Strands(..)) { "strands" } else { "points" };
+    (0 < count).then(|| format!("no value: {count} of {} {of}", values.len()))
+}
+
+/// Hair of one colour, each strand a little lighter or darker, as hair grows.
+struct Natural(Vec3);
+
+impl Paint for Natural {
+    fn fibre(&self, value: f32) -> (Vec3, f32) {
+        // A second number of the strand's own, from the digits the first does not show.
+        let other = (value * 97.0).fract();
+        (self.0 * (0.7 + 0.6 * value), 0.16 * (other - 0.5))
+    }
+}
+
+/// Hair coloured by a map.
+struct Mapped(Vec<Vec3>);
+
+impl Mapped {
+    /// Steps of a map, more than there are shades in an 8-bit picture.
+    const STEPS: u16 = 511;
+
+    fn new(scale: &Scale) -> Self {
+        let step = |i: u16| decode(scale.map.rgb(f64::from(i) / f64::from(Self::STEPS)));
+        Self((0..=Self::STEPS).map(step).collect())
+    }
+}
+
+impl Paint for Mapped {
+    fn fibre(&self, value: f32) -> (Vec3, f32) {
+        if value.is_nan() {
+            return (decode(NO_VALUE), 0.0);
+        }
+        let i = crate::num::index(crate::num::floor(value * f32::from(Self::STEPS) + 0.5));
+        (self.0[i.min(self.0.len() - 1)], 0.0)
+    }
+}
+
+/// A number in 0 to 1 that differs from strand to strand (the finalizer of `SplitMix64`).
+fn chance(i: u64) -> f32 {
+    let mut z = i.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    ((z ^ (z >> 31)) >> 40) as f32 / (1_u64 << 24) as f32
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,94 @@
+//! Several pictures on one sheet, each with its caption.
+
+use image::{Rgb as Pixel, RgbImage, imageops};
+
+use crate::color::Rgb;
+use crate::num::{floor, index};
+use crate::text::{Type, ink};
+
+/// A picture and the words below it.
+#[derive(Clone, Copy, Debug)]
+pub struct Panel<'a> {
+    /// The picture.
+    pub image: &'a RgbImage,
+    /// The words; cut where they are wider than the picture.
+    pub caption: &'a str,
+}
+
+/// Why there is no sheet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SheetError {
+    /// No picture, or no column to put one in.
+    ///
+    /// ```
+    /// # use tress_view::{SheetError, sheet};
+    /// assert_eq!(sheet(&[], 2, [255; 3]), Err(SheetError::Empty));
+    /// ```
+    #[error("a sheet without a picture or without a column")]
+    Empty,
+    /// More pixels than a picture can have.
+    #[error("a sheet of {width} x {height} pixels is too large")]
+    TooLarge {
+        /// Pixels across.
+        width: u64,
+        /// Pixels down.
+        height: u64,
+    },
+}
+
+/// Lays pictures out in rows of `columns` on paper of one colour, with captions below them.
+///
+/// Every picture has the room of the largest, and stands in its middle.
+///
+/// ```
+/// use image::RgbImage;
+/// use tress_view::{Panel, sheet};
+///
+/// let (before, after) = (RgbImage::new(300, 200), RgbImage::new(300, 200));
+/// let panels = [
+///     Panel { image: &before, caption: "before" },
+///     Panel { image: &after, caption: "after" },
+/// ];
+/// let sheet = sheet(&panels, 2, [236, 233, 228])?;
+/// assert!(sheet.width() > 600 && sheet.height() > 200);
+/// # Ok::<(), tress_view::SheetError>(())
+/// ```
+///
+/// # Errors
+///
+/// Without a picture or a column, and when the sheet would have more than 2^28 pixels.
+pub fn sheet(panels: &[Panel<'_>], columns: usize, paper: Rgb) -> Result<RgbImage, SheetError> {
+    if panels.is_empty() || columns == 0 {
+        return Err(SheetError::Empty);
+    }
+    let columns = columns.min(panels.len());
+    let rows = panels.len().div_ceil(columns) as u64;
+    let widest = panels.iter().map(|p| p.image.width()).max().unwrap_or(0);
+    let highest = panels.iter().map(|p| p.image.height()).max().unwrap_or(0);
+    let line = (widest.min(highest) as f32 / 28.0).clamp(12.0, 48.0).round();
+    let gap = index(floor(0.6 * line)) as u64;
+    let caption = index(floor(1.9 * line)) as u64;
+    let (cell_width, cell_height) = (u64::from(widest) + gap, u64::from(highest) + caption + gap);
+    let (width, height) = (columns as u64 * cell_width + gap, rows * cell_height + gap);
+    let too_large = SheetError::TooLarge { width, height };
+    if 1 << 28 < width.saturating_mul(height) {
+        return Err(too_large);
+    }
+    let pixels = |n: u64| u32::try_from(n).map_err(|_| too_large);
+    let mut sheet = RgbImage::from_pixel(pixels(width)?, pixels(height)?, Pixel(paper));
+    let letters = Type::new(line);
+    for (i, panel) in panels.iter().enumerate() {
+        let x = gap + (i % columns) as u64 * cell_width;
+        let y = gap + (i / columns) as u64 * cell_height;
+        let inset = |room: u32, taken: u32| u64::from((room - taken) / 2);
+        let left = x + inset(widest, panel.image.width());
+        let top = y + inset(highest, panel.image.height());
+        imageops::replace(&mut sheet, panel.image, left.cast_signed(), top.cast_signed());
+        let words = letters.fitted(panel.caption, widest as f32);
+        let left = x as f32 + 0.5 * (widest as f32 - letters.width(&words));
+        let top = (y + u64::from(highest)) as f32 + 0.35 * line;
+        letters.draw(&mut sheet, left.round(), top.round(), &words, ink(paper));
+    }
+    Ok(sheet)
+}
