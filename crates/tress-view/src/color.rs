@@ -57,7 +57,7 @@ pub enum HairColor {
 impl Default for HairColor {
     /// Dark brown.
     fn default() -> Self {
-        Self::Melanin { amount: 0.6, redness: 0.2 }
+        Self::Melanin { amount: 0.6, redness: 0.0 }
     }
 }
 

@@ -119,9 +119,8 @@ struct Painter<'a, P> {
 
 impl<P: Paint> Painter<'_, P> {
     fn square(&self, tiles: &Tiles, tile: usize) -> Square {
-        let edge = EDGE as i32;
-        let left = (tile % tiles.across) as i32 * edge;
-        let top = (tile / tiles.across) as i32 * edge;
+        let edge = EDGE.cast_signed();
+        let [left, top] = tiles.corner(tile);
         let mut pixels = vec![(Vec3::ZERO, 1.0_f32); (EDGE * EDGE) as usize];
         let mut open = pixels.len();
         for i in self.by_depth(tiles.pieces(tile)) {
@@ -158,7 +157,7 @@ impl<P: Paint> Painter<'_, P> {
         let mut order: Vec<u64> =
             pieces.map(|i| u64::from(ascending(depth(i))) << 32 | u64::from(i)).collect();
         order.sort_unstable();
-        order.into_iter().map(|key| (key & u64::from(u32::MAX)) as usize)
+        order.into_iter().map(|key| low_half(key) as usize)
     }
 
     /// The light that a vertex sends to the viewer.
@@ -179,6 +178,12 @@ impl<P: Paint> Painter<'_, P> {
 fn ascending(x: f32) -> u32 {
     let bits = x.to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
+}
+
+/// The lower 32 bits.
+#[expect(clippy::cast_possible_truncation, reason = "the truncation is what is asked for")]
+fn low_half(key: u64) -> u32 {
+    key as u32
 }
 
 /// How much darker a hair is off its axis, once it is wide enough for its roundness to be seen.

@@ -118,7 +118,7 @@ impl Curve {
     fn segment(&self, i: usize) -> Option<Segment> {
         let ends = [self.points[i], self.points[i + 1]];
         let chord = ends[0].distance(ends[1]);
-        if !(0.0 < chord) {
+        if chord.is_nan() || chord <= 0.0 {
             return None;
         }
         let [a, b] = [self.tangents[i], self.tangents[i + 1]];

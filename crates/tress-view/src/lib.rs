@@ -19,11 +19,12 @@ mod text;
 mod tiles;
 mod width;
 
+pub use bounds::Bounds;
 pub use camera::{Camera, Size, View};
 pub use color::{HairColor, Rgb};
 pub use image::RgbImage;
 pub use png::png;
-pub use render::{Coloring, RenderError, RenderOptions, render, render_alike, render_seen_by};
+pub use render::{Coloring, RenderError, RenderOptions, render, render_seen_by, render_within};
 pub use scale::{ColorMap, Scale, Tick};
 pub use sheet::{Panel, SheetError, sheet};
 pub use width::{StrandWidth, sensible_width};

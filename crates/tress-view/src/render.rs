@@ -1,12 +1,11 @@
 //! A groom, and how it is to be seen, to a picture.
 
-use std::borrow::Cow;
-
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use image::{Rgb as Pixel, RgbImage, imageops};
 use serde::{Deserialize, Serialize};
 use tress_geometry::{Groom, OffsetsError, UpAxis};
 
+use crate::bounds::Bounds;
 use crate::camera::{Camera, Size, View};
 use crate::color::{HairColor, Rgb, decode};
 use crate::draw::{Paint, draw};
@@ -15,7 +14,7 @@ use crate::legend::{self, NO_VALUE, legend};
 use crate::num::narrow;
 use crate::scale::Scale;
 use crate::stage::Stage;
-use crate::width::{StrandWidth, has_width, radii, sensible_width};
+use crate::width::{StrandWidth, radii};
 
 /// How a groom is to be seen.
 ///
@@ -41,8 +40,11 @@ pub struct RenderOptions {
     pub hair: HairColor,
     /// The hair's width. Default the groom's own, or a sensible one.
     pub width: StrandWidth,
-    /// What is seen where there is no hair. Default a warm light grey.
+    /// What is seen where there is no natural hair. Default a warm light grey.
     pub background: Rgb,
+    /// What is seen where there is no hair coloured by values: default a dark grey, before which
+    /// the light colours of a map stand out as well as the others.
+    pub value_background: Rgb,
     /// Share of the picture's shorter side that is left free around the groom. Default 0.05.
     pub margin: f64,
 }
@@ -55,6 +57,7 @@ impl Default for RenderOptions {
             hair: HairColor::default(),
             width: StrandWidth::default(),
             background: [236, 233, 228],
+            value_background: [44, 46, 50],
             margin: 0.05,
         }
     }
@@ -144,66 +147,55 @@ pub fn render(
     coloring: &Coloring<'_>,
     options: &RenderOptions,
 ) -> Result<RgbImage, RenderError> {
-    let pictures = render_alike(&[(groom, *coloring)], options)?;
-    Ok(pictures.into_iter().next().unwrap_or_default())
+    let points = groom.strands().points().iter().copied();
+    render_around(groom, points, coloring, options)
 }
 
-/// Draws several grooms as [`render`] does, all by one camera that sees all of them and with one
-/// width of hair, so that their pictures can be compared.
+/// As [`render`], but with a camera that sees all of `bounds`: pictures of several grooms within
+/// the same bounds, before and after an edit say, can be laid over each other.
 ///
-/// A groom whose up axis is another than the first one's is turned to that.
+/// Where the edit changes how long the strands are, give the options one
+/// [`StrandWidth::Fixed`] too.
 ///
 /// # Errors
 ///
 /// As [`render`].
-pub fn render_alike(
-    subjects: &[(&Groom, Coloring<'_>)],
+pub fn render_within(
+    groom: &Groom,
+    bounds: Bounds,
+    coloring: &Coloring<'_>,
     options: &RenderOptions,
-) -> Result<Vec<RgbImage>, RenderError> {
-    check_size(options.size)?;
-    let Some((first, _)) = subjects.first() else { return Ok(Vec::new()) };
-    let grooms: Vec<Cow<'_, Groom>> =
-        subjects.iter().map(|(groom, _)| turned_like(groom, first.up)).collect();
-    let natural = subjects.iter().all(|(_, coloring)| matches!(coloring, Coloring::Natural));
-    let legend_height = if natural { 0 } else { legend::height(options.size) };
-    let Size { width, height } = options.size;
-    let seen = Size::new(width, height - legend_height);
-    let up = first.up.unwrap_or(UpAxis::Y);
-    let points = grooms.iter().flat_map(|groom| groom.strands().points().iter().copied());
-    let camera = Camera::fit(points, up, options.view, seen, options.margin);
-    let options = &RenderOptions { width: common_width(&grooms, options.width), ..*options };
-    let with_legend = |groom: &Groom, coloring: &Coloring<'_>| {
-        let picture = render_seen_by(&camera, groom, coloring, options)?;
-        let mut whole = RgbImage::from_pixel(width, height, Pixel(options.background));
-        imageops::replace(&mut whole, &picture, 0, 0);
-        if let Coloring::Strands(values, scale) | Coloring::Points(values, scale) = coloring
-            && 0 < legend_height
-        {
-            let missing = missing(coloring, values);
-            let strip = legend(scale, missing.as_deref(), options.size, options.background);
-            imageops::replace(&mut whole, &strip, 0, i64::from(seen.height));
-        }
-        Ok(whole)
+) -> Result<RgbImage, RenderError> {
+    render_around(groom, bounds.corners(), coloring, options)
+}
+
+/// The picture by a camera that sees all `points`, with its legend.
+fn render_around(
+    groom: &Groom,
+    points: impl IntoIterator<Item = DVec3>,
+    coloring: &Coloring<'_>,
+    options: &RenderOptions,
+) -> Result<RgbImage, RenderError> {
+    let Size { width, height } = check_size(options.size)?;
+    let legend_height = match coloring {
+        Coloring::Natural => 0,
+        Coloring::Strands(..) | Coloring::Points(..) => legend::height(options.size),
     };
-    grooms.iter().zip(subjects).map(|(groom, (_, coloring))| with_legend(groom, coloring)).collect()
-}
-
-/// The groom with this axis up, where both axes are known.
-fn turned_like(groom: &Groom, up: Option<UpAxis>) -> Cow<'_, Groom> {
-    match up {
-        Some(up) if groom.up.is_some_and(|own| own != up) => Cow::Owned(groom.clone().with_up(up)),
-        _ => Cow::Borrowed(groom),
+    let seen = Size::new(width, height - legend_height);
+    let up = groom.up.unwrap_or(UpAxis::Y);
+    let camera = Camera::fit(points, up, options.view, seen, options.margin);
+    let picture = render_seen_by(&camera, groom, coloring, options)?;
+    let (Coloring::Strands(values, scale) | Coloring::Points(values, scale)) = coloring else {
+        return Ok(picture);
+    };
+    let paper = options.value_background;
+    let mut whole = RgbImage::from_pixel(width, height, Pixel(paper));
+    imageops::replace(&mut whole, &picture, 0, 0);
+    if 0 < legend_height {
+        let strip = legend(scale, missing(coloring, values).as_deref(), options.size, paper);
+        imageops::replace(&mut whole, &strip, 0, i64::from(seen.height));
     }
-}
-
-/// The width that the first groom would choose for itself, for all that bring none.
-fn common_width(grooms: &[Cow<'_, Groom>], width: StrandWidth) -> StrandWidth {
-    match (width, grooms) {
-        (StrandWidth::Auto, [first, _, ..]) if !has_width(first) => {
-            StrandWidth::Fixed(sensible_width(first))
-        }
-        _ => width,
-    }
+    Ok(whole)
 }
 
 /// Draws a groom as a camera sees it, without a legend; the options' view, size and margin are the
@@ -219,34 +211,47 @@ pub fn render_seen_by(
     options: &RenderOptions,
 ) -> Result<RgbImage, RenderError> {
     check_size(camera.size())?;
-    let background = decode(options.background);
     let radii = radii(groom, options.width, camera);
     match coloring {
         Coloring::Natural => {
             let values = each_point(groom, |i| chance(i as u64));
             let flat = flatten(groom.strands(), &Dress { radii, values }, camera)?;
             let paint = Natural(options.hair.linear());
-            Ok(draw(&flat, &paint, &Stage::natural(background), camera.size()))
+            Ok(draw(&flat, &paint, &Stage::natural(decode(options.background)), camera.size()))
         }
         Coloring::Strands(values, scale) => {
             check_values(values, "strands", groom.strands().len())?;
             let values = each_point(groom, |i| place(scale, values[i]));
             let flat = flatten(groom.strands(), &Dress { radii, values }, camera)?;
-            Ok(draw(&flat, &Mapped::new(scale), &Stage::plain(background), camera.size()))
+            Ok(draw(
+                &flat,
+                &Mapped::new(scale),
+                &Stage::plain(decode(options.value_background)),
+                camera.size(),
+            ))
         }
         Coloring::Points(values, scale) => {
             check_values(values, "points", groom.strands().points().len())?;
             let values = values.iter().map(|&value| place(scale, value)).collect();
             let flat = flatten(groom.strands(), &Dress { radii, values }, camera)?;
-            Ok(draw(&flat, &Mapped::new(scale), &Stage::plain(background), camera.size()))
+            Ok(draw(
+                &flat,
+                &Mapped::new(scale),
+                &Stage::plain(decode(options.value_background)),
+                camera.size(),
+            ))
         }
     }
 }
 
-fn check_size(size: Size) -> Result<(), RenderError> {
+fn check_size(size: Size) -> Result<Size, RenderError> {
     let Size { width, height } = size;
     let pixels = u64::from(width) * u64::from(height);
-    if (1..=1 << 28).contains(&pixels) { Ok(()) } else { Err(RenderError::Size { width, height }) }
+    if (1..=1 << 28).contains(&pixels) {
+        Ok(size)
+    } else {
+        Err(RenderError::Size { width, height })
+    }
 }
 
 fn check_values(values: &[f64], of: &'static str, expected: usize) -> Result<(), RenderError> {
@@ -279,7 +284,7 @@ impl Paint for Natural {
     fn fibre(&self, value: f32) -> (Vec3, f32) {
         // A second number of the strand's own, from the digits the first does not show.
         let other = (value * 97.0).fract();
-        (self.0 * (0.7 + 0.6 * value), 0.16 * (other - 0.5))
+        (self.0 * (0.5 + value), 0.2 * (other - 0.5))
     }
 }
 

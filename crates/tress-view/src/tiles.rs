@@ -48,6 +48,13 @@ impl Tiles {
         Self { across, runs: runs.collect() }
     }
 
+    /// The pixel in a square's upper left corner.
+    pub(crate) fn corner(&self, tile: usize) -> [i32; 2] {
+        // Pictures have at most 2^28 pixels.
+        let pixel = |square: usize| i32::try_from(square * EDGE as usize).unwrap_or(i32::MAX);
+        [pixel(tile % self.across), pixel(tile / self.across)]
+    }
+
     /// The pieces that reach into a square, by their first vertices.
     pub(crate) fn pieces(&self, tile: usize) -> impl Iterator<Item = u32> {
         self.runs.iter().flat_map(move |run| {

@@ -90,11 +90,6 @@ fn taper(i: usize, n: usize) -> f64 {
     1.0 - (1.0 - TAPER[1]) * behind
 }
 
-/// Whether the groom brings widths that can be true.
-pub(crate) fn has_width(groom: &Groom) -> bool {
-    attribute(groom).is_some()
-}
-
 /// The groom's own widths, a point, if they can be true.
 fn attribute(groom: &Groom) -> Option<impl Iterator<Item = f64>> {
     let strands = groom.strands();
