@@ -115,9 +115,12 @@ pub(crate) struct ConvertArgs {
 
 /// Fit super-helices to polylines; report how near they are
 #[derive(Args, Debug)]
-#[command(name = "fit", after_help = "Examples:
+#[command(
+    name = "fit",
+    after_help = "Examples:
   tress fit guides.obj guides.tress --elements 90
-  tress fit head.usdc head.tress --tolerance 2%")]
+  tress fit head.usdc head.tress --tolerance 2%"
+)]
 pub(crate) struct FitCommandArgs {
     /// The groom
     pub(crate) input: PathBuf,
@@ -130,9 +133,12 @@ pub(crate) struct FitCommandArgs {
 
 /// Sample super-helices as polylines
 #[derive(Args, Debug)]
-#[command(name = "sample", after_help = "Examples:
+#[command(
+    name = "sample",
+    after_help = "Examples:
   tress sample groom.tress groom.usda --points 128
-  tress sample groom.tress groom.obj --spacing 0.05")]
+  tress sample groom.tress groom.obj --spacing 0.05"
+)]
 pub(crate) struct SampleCommandArgs {
     /// The groom; polylines are fitted first, which resamples them along smooth curves
     pub(crate) input: PathBuf,
@@ -368,7 +374,8 @@ impl Shard {
 impl FromStr for Shard {
     type Err = String;
     fn from_str(text: &str) -> Result<Self, String> {
-        let parts = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+        let parts =
+            text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
         match parts {
             Some((index, of)) if 0 < index && index <= of => Ok(Self { index, of }),
             _ => Err("expected I/N with I from 1 to N, as in 2/8".into()),

@@ -37,7 +37,8 @@ pub(crate) fn check_in_place(
 ) -> Result<(), Failure> {
     let place = |path: &Path| fs::canonicalize(path).ok();
     let target = place(output);
-    if everywhere.in_place || target.is_none() || inputs.iter().all(|input| place(input) != target) {
+    if everywhere.in_place || target.is_none() || inputs.iter().all(|input| place(input) != target)
+    {
         return Ok(());
     }
     let file = output.display();

@@ -86,7 +86,8 @@ fn info_says_what_a_groom_is_like() {
     let radius = json["summary"]["coil_radius"]["median"].as_f64().expect("coils have a radius");
     assert!((0.4..0.7).contains(&radius), "coil radius {radius}");
     let summary = &json["summary"];
-    let hands = [&summary["left_handed"], &summary["right_handed"]].map(|n| n.as_u64().unwrap_or(0));
+    let hands =
+        [&summary["left_handed"], &summary["right_handed"]].map(|n| n.as_u64().unwrap_or(0));
     assert_eq!(hands[0] + hands[1], 20, "every wisp of the fixture winds one way");
 }
 

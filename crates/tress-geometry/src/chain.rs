@@ -4,7 +4,7 @@
 //! chain is walked by composing them: one rotation product and one rotated displacement each
 //! [CSE 4-8]. Positions and frames are continuous, curvatures jump at the joints.
 
-use glam::DVec3;
+use glam::{DMat3, DVec2, DVec3, Vec3Swizzles};
 
 use crate::{Element, Frame};
 
@@ -99,6 +99,46 @@ impl SuperHelix<'_> {
             };
             *position = walk.frame_at(s).position;
         }
+    }
+}
+
+/// Turns the material frame about the tangent so that the strand's first turn bends about `v`
+/// (`k1 = 0`, `k2 > 0` in the mean); the curve stays as it is.
+///
+/// Where the frame stands about the tangent is not a matter of shape: all curvatures `(k1, k2)` of a
+/// strand turn together with it. Fixed by the strand's own bend, curvatures do not change when the
+/// strand is moved or turned, and those of strands alike in shape are alike, so that they can be
+/// exchanged and mixed. A strand that does not bend is left as it is.
+///
+/// ```
+/// use glam::DVec3;
+/// use tress_geometry::{Element, Frame, align_frame};
+///
+/// let mut root = Frame::IDENTITY;
+/// let mut elements = [Element { curvature: DVec3::new(1.0, -2.0, 0.0), length: 9.0 }];
+/// let tip = elements[0].advance(&root).position;
+/// align_frame(&mut root, &mut elements);
+/// assert!(elements[0].curvature.distance(DVec3::new(1.0, 0.0, 2.0)) < 1e-15);
+/// assert!(elements[0].advance(&root).position.distance(tip) < 1e-14);
+/// ```
+pub fn align_frame(root: &mut Frame, elements: &mut [Element]) {
+    let mut turned = 0.0;
+    let mut bend = DVec2::ZERO;
+    for element in elements.iter() {
+        bend += element.curvature.yz() * element.length;
+        turned += element.curvature.length() * element.length;
+        if std::f64::consts::TAU <= turned {
+            break;
+        }
+    }
+    let Some(bend) = bend.try_normalize() else { return };
+    let (cosine, sine) = (bend.y, -bend.x);
+    let [t, u, v] = [root.axes.x_axis, root.axes.y_axis, root.axes.z_axis];
+    root.axes = DMat3::from_cols(t, u * cosine + v * sine, v * cosine - u * sine);
+    for element in elements {
+        let q = element.curvature;
+        let (k1, k2) = (q.y * cosine + q.z * sine, q.z * cosine - q.y * sine);
+        element.curvature = DVec3::new(q.x, k1, k2);
     }
 }
 

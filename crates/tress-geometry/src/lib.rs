@@ -50,7 +50,7 @@ mod rodrigues;
 mod strands;
 
 pub use attributes::{Attributes, Column, ColumnError, names};
-pub use chain::SuperHelix;
+pub use chain::{SuperHelix, align_frame};
 pub use derivative::{ChainScratch, adjoint, jacobian};
 pub use element::Element;
 pub use frame::Frame;

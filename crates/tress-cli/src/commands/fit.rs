@@ -12,7 +12,9 @@ use crate::target;
 pub(crate) fn run(args: &FitCommandArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     if target::check(&[&args.input], &args.output, everywhere)? != Format::Tress {
         let file = args.output.display();
-        let message = format!("{file}: super-helices go to a .tress file; `tress convert` and `tress sample` write polylines");
+        let message = format!(
+            "{file}: super-helices go to a .tress file; `tress convert` and `tress sample` write polylines"
+        );
         return Err(Failure::Usage(message));
     }
     let progress = Progress::new(3, everywhere);
