@@ -30,7 +30,8 @@ pub(crate) struct Chain<S: Simd> {
     pub(crate) points: Vec<Point<S>>,
     /// Which elements hold which controls in any lane, as `(element, control)`, ascending.
     pub(crate) holds: Vec<(usize, usize)>,
-    blocks: Vec<Block<S>>,
+    /// By element, as of the last walk.
+    pub(crate) blocks: Vec<Block<S>>,
     /// The joint farthest from the root, at the last walk.
     pub(crate) extent: Lane<S>,
     /// `tr(J W^-1 J^T)` of the tip at the last walk.
@@ -49,9 +50,11 @@ pub(crate) struct LaneElement<S: Simd> {
 
 /// World matrices of an element, columns scaled by its softness.
 #[derive(Clone, Copy, Debug)]
-struct Block<S: Simd> {
-    turning: LaneMat3<S>,
-    moving: LaneMat3<S>,
+pub(crate) struct Block<S: Simd> {
+    /// `B`.
+    pub(crate) turning: LaneMat3<S>,
+    /// `M`.
+    pub(crate) moving: LaneMat3<S>,
 }
 
 /// A control, and what the last walk found there.
@@ -64,7 +67,7 @@ pub(crate) struct Point<S: Simd> {
     /// `S_k`, relative to the root.
     pub(crate) position: LaneVec3<S>,
     /// `P_k`.
-    held: LaneMat3<S>,
+    pub(crate) held: LaneMat3<S>,
     /// `P_k M^T` and `P_k B^T` of the element that holds it.
     held_moving: LaneMat3<S>,
     held_turning: LaneMat3<S>,
@@ -119,34 +122,33 @@ impl<S: Simd> Chain<S> {
         let mut extent = Lane::splat(simd, 0.0);
         let mut square = Lane::splat(simd, 0.0);
         let mut held = 0;
-        self.blocks.clear();
-        for (j, (element, &y)) in self.elements.iter().zip(y).enumerate() {
+        let none = LaneMat3::zero(simd);
+        self.blocks.resize(self.elements.len(), Block { turning: none, moving: none });
+        let walked = self.elements.iter().zip(y).zip(&mut self.blocks);
+        for (j, ((element, &y), block)) in walked.enumerate() {
             let q = element.rest + element.softness.scale(y);
             let motion = Motion::new(q, element.length);
             let end = position + axes.apply(motion.displacement());
             let turning = axes.times(&motion.turning()).scale_columns(element.softness);
             let moving = axes.times(&motion.moving()).scale_columns(element.softness);
-            let block = Block { turning, moving: moving.plus(&turning.crossed_by(end)) };
+            block.turning = turning;
+            block.moving = moving.plus(&turning.crossed_by(end));
             while let Some(&(element_held, k)) = self.holds.get(held)
                 && element_held == j
             {
                 let point = &mut self.points[k];
                 let here = point.element.is(j as f64);
                 let motion = Motion::new(q, here.keep(point.local));
-                let found = Point {
-                    position: position + axes.apply(motion.displacement()),
-                    held: axes.times(&motion.moving()).scale_columns(element.softness),
-                    ..*point
-                };
-                point.record(here, found, &block, &sums, y);
+                let found = position + axes.apply(motion.displacement());
+                let moving = axes.times(&motion.moving()).scale_columns(element.softness);
+                point.record(here, (found, &moving), block, &sums, y);
                 held += 1;
             }
-            sums.add(&block, y);
+            sums.add(block, y);
             square += y.dot(y);
             axes = axes.times(&motion.rotation());
             position = end;
             extent = extent.max(end.dot(end));
-            self.blocks.push(block);
         }
         self.extent = extent.sqrt();
         self.square = square;
@@ -206,25 +208,24 @@ impl<S: Simd> Point<S> {
         }
     }
 
-    /// Takes over `found` in the lanes where the element under way holds the point.
+    /// Takes over what was found, `S_k` and `P_k`, in the lanes where the element under way holds
+    /// the point.
     #[inline(always)]
     fn record(
         &mut self,
         here: Mask<S>,
-        found: Self,
+        (position, held): (LaneVec3<S>, &LaneMat3<S>),
         block: &Block<S>,
         before: &Sums<S>,
         y: LaneVec3<S>,
     ) {
-        let select = |yes: &LaneMat3<S>, no: &LaneMat3<S>| LaneMat3::select(here, yes, no);
-        let drift = before.moved + before.turned.cross(found.position) + found.held.apply(y);
-        self.position = LaneVec3::select(here, found.position, self.position);
+        let drift = before.moved + before.turned.cross(position) + held.apply(y);
+        self.position = LaneVec3::select(here, position, self.position);
         self.drift = LaneVec3::select(here, drift, self.drift);
-        self.held = select(&found.held, &self.held);
-        self.held_moving = select(&found.held.times_transposed(&block.moving), &self.held_moving);
-        self.held_turning =
-            select(&found.held.times_transposed(&block.turning), &self.held_turning);
-        self.sums = Sums::select(here, before, &self.sums);
+        self.held.overwrite(here, held);
+        self.held_moving.overwrite(here, &held.times_transposed(&block.moving));
+        self.held_turning.overwrite(here, &held.times_transposed(&block.turning));
+        self.sums.overwrite(here, before);
     }
 }
 
@@ -246,18 +247,12 @@ impl<S: Simd> Sums<S> {
     }
 
     #[inline(always)]
-    fn select(mask: Mask<S>, yes: &Self, no: &Self) -> Self {
-        let gram = |yes: Gram<S>, no: Gram<S>| Gram {
-            diagonal: LaneVec3::select(mask, yes.diagonal, no.diagonal),
-            mixed: LaneVec3::select(mask, yes.mixed, no.mixed),
-        };
-        Self {
-            moving: gram(yes.moving, no.moving),
-            turning: gram(yes.turning, no.turning),
-            mixed: LaneMat3::select(mask, &yes.mixed, &no.mixed),
-            moved: LaneVec3::select(mask, yes.moved, no.moved),
-            turned: LaneVec3::select(mask, yes.turned, no.turned),
-        }
+    fn overwrite(&mut self, mask: Mask<S>, new: &Self) {
+        self.moving.overwrite(mask, &new.moving);
+        self.turning.overwrite(mask, &new.turning);
+        self.mixed.overwrite(mask, &new.mixed);
+        self.moved = LaneVec3::select(mask, new.moved, self.moved);
+        self.turned = LaneVec3::select(mask, new.turned, self.turned);
     }
 
     /// `sum (M - [a]x B) (M - [b]x B)^T`.
@@ -274,9 +269,18 @@ impl<S: Simd> Gram<S> {
     fn add(&mut self, m: &LaneMat3<S>) {
         for column in m.0 {
             let LaneVec3 { x, y, z } = column;
-            self.diagonal += column.scale(column);
-            self.mixed += LaneVec3::new(y * z, z * x, x * y);
+            let (d, m) = (self.diagonal, self.mixed);
+            let square = |of: Lane<S>, onto| of.mul_add(of, onto);
+            self.diagonal = LaneVec3::new(square(x, d.x), square(y, d.y), square(z, d.z));
+            let mixed = (y.mul_add(z, m.x), z.mul_add(x, m.y), x.mul_add(y, m.z));
+            self.mixed = LaneVec3::new(mixed.0, mixed.1, mixed.2);
         }
+    }
+
+    #[inline(always)]
+    fn overwrite(&mut self, mask: Mask<S>, new: &Self) {
+        self.diagonal = LaneVec3::select(mask, new.diagonal, self.diagonal);
+        self.mixed = LaneVec3::select(mask, new.mixed, self.mixed);
     }
 
     #[inline(always)]

@@ -1,9 +1,9 @@
 //! Numbers of several strands side by side: one SIMD register, or a single number on a machine
 //! that has none.
 //!
-//! The arithmetic of a lane does not know its neighbours, and nothing here contracts a product and
-//! a sum into one rounding: a strand's result is the same to the bit in any lane, beside any other
-//! strand, and on any instruction set.
+//! The arithmetic of a lane does not know its neighbours: a strand's result is the same to the bit in
+//! any lane and beside any other strand. Machines with and without fused products and sums differ
+//! in the last digits.
 //!
 //! Every function is inlined, because `pulp` compiles what is inlined into its dispatched function
 //! for the instruction set it finds at run time, and nothing else.
@@ -65,6 +65,12 @@ impl<S: Simd> Lane<S> {
     #[inline(always)]
     pub(crate) fn simd(self) -> S {
         self.simd
+    }
+
+    /// `self * b + c`, in one rounding where the machine has that.
+    #[inline(always)]
+    pub(crate) fn mul_add(self, b: Self, c: Self) -> Self {
+        Self { value: self.simd.mul_add_e_f64s(self.value, b.value, c.value), ..self }
     }
 
     #[inline(always)]

@@ -18,6 +18,7 @@ use pulp::Simd;
 
 use crate::chain::Chain;
 use crate::lanes::{Lane, LaneVec3, MAX_LANES, Mask};
+use crate::newton::Newton;
 use crate::normal::Normal;
 use crate::{Energy, Stop};
 
@@ -38,6 +39,10 @@ const MAX_FAILURES: f64 = 12.0;
 /// A rise of the energy by this part of it is rounding, not a failure; with 0, strands that are
 /// all but done would be held up by it.
 const ROUNDING: f64 = 1e-13;
+
+/// A lane whose gradient falls by less than this in a step takes Newton's steps from then on: they
+/// cost as much again.
+const SLOW: f64 = 0.25;
 
 /// An anchor this far off, in parts of the strand's extent, is still away.
 const AWAY: f64 = 1e-3;
@@ -82,6 +87,7 @@ pub(crate) struct Levenberg<S: Simd> {
     /// Positions of the controls at `y`.
     pub(crate) positions: Vec<LaneVec3<S>>,
     pub(crate) normal: Normal<S>,
+    newton: Newton<S>,
     trial: Vec<LaneVec3<S>>,
     step: Vec<LaneVec3<S>>,
     /// Positions of the controls at the start.
@@ -97,6 +103,8 @@ pub(crate) struct Levenberg<S: Simd> {
     iterations: Lane<S>,
     gradient: Lane<S>,
     active: Mask<S>,
+    /// Where the gradient falls too slowly for what the steps leave out.
+    slow: Mask<S>,
     converged: Mask<S>,
     balanced: Mask<S>,
 }
@@ -112,6 +120,7 @@ impl<S: Simd> Levenberg<S> {
             y: Vec::new(),
             positions: Vec::new(),
             normal: Normal::new(),
+            newton: Newton::new(),
             trial: Vec::new(),
             step: Vec::new(),
             begun: Vec::new(),
@@ -124,6 +133,7 @@ impl<S: Simd> Levenberg<S> {
             iterations: zero,
             gradient: zero,
             active: none,
+            slow: none,
             converged: none,
             balanced: none,
         }
@@ -176,6 +186,7 @@ impl<S: Simd> Levenberg<S> {
         self.active = Lane::from_fn(simd, |i| if i < used { 1.0 } else { 0.0 }).is(1.0);
         self.converged = zero.below(zero);
         self.balanced = self.converged;
+        self.slow = self.converged;
     }
 
     /// After the first walk: the stiffness, how the anchors will move, and where it all starts.
@@ -241,6 +252,9 @@ impl<S: Simd> Levenberg<S> {
         let anchors = self.normal.square();
         self.energy = better.select(anchors + self.c * self.square, self.energy);
         let (gradient, pull) = self.normal.gradients(chain, self.c, self.square);
+        let (arrived, failed) = (self.way.is(1.0).and(better), better.not());
+        let slow = (self.gradient * SLOW).below(gradient).and(arrived);
+        self.slow = self.slow.or(slow).or(failed);
         self.gradient = better.select(gradient, self.gradient);
         let small = gradient.at_most(self.reference * limits.tolerance);
         let done = small.and(self.way.is(1.0)).and(better);
@@ -258,13 +272,29 @@ impl<S: Simd> Levenberg<S> {
         let quarter = Lane::splat(chain.simd, 0.25);
         let least = self.normal.mean_diagonal() * LEAST_DAMPING;
         let h = (self.c + self.damping).max(least);
-        self.normal.solve(chain, self.c, h);
-        let kept = self.c / h;
         let (step, y) = (&mut self.step, &self.y);
-        chain.pull(&self.normal.loads, |j, pulled| {
-            let newton = -(y[j] * kept) - pulled;
-            step[j] = LaneVec3::select(better, newton, step[j] * quarter);
-        });
+        let fresh = better.and(self.active);
+        for step in step.iter_mut() {
+            *step = *step * quarter;
+        }
+        let mut left = fresh;
+        let slow = fresh.and(self.slow);
+        if slow.any() {
+            let trial = &mut self.trial;
+            let convex = self.newton.step(chain, &self.normal, y, (self.c, h), |j, u| trial[j] = u);
+            let good = slow.and(convex);
+            for (step, &u) in step.iter_mut().zip(trial.iter()) {
+                *step = LaneVec3::select(good, u, *step);
+            }
+            left = fresh.and(good.not());
+        }
+        if left.any() {
+            self.normal.solve(chain, self.c, h);
+            let kept = self.c / h;
+            chain.pull(&self.normal.loads, |j, pulled| {
+                step[j] = LaneVec3::select(left, -(y[j] * kept) - pulled, step[j]);
+            });
+        }
     }
 
     #[inline(always)]

@@ -6,6 +6,7 @@ mod chain;
 mod control;
 mod lanes;
 mod levenberg;
+mod newton;
 mod normal;
 mod objective;
 mod options;

@@ -146,14 +146,14 @@ impl<S: Simd> Normal<S> {
         for j in 0..n {
             let mut pivot = a[j * n + j] + h;
             for k in 0..j {
-                pivot -= a[j * n + k] * a[j * n + k];
+                pivot = (-a[j * n + k]).mul_add(a[j * n + k], pivot);
             }
             let inverse = one / pivot.max(h).sqrt();
             a[j * n + j] = inverse;
             for i in j + 1..n {
                 let mut entry = a[i * n + j];
                 for k in 0..j {
-                    entry -= a[i * n + k] * a[j * n + k];
+                    entry = (-a[i * n + k]).mul_add(a[j * n + k], entry);
                 }
                 a[i * n + j] = entry * inverse;
             }
@@ -168,14 +168,14 @@ impl<S: Simd> Normal<S> {
         for i in 0..n {
             let mut sum = x[i];
             for k in 0..i {
-                sum -= a[i * n + k] * x[k];
+                sum = (-a[i * n + k]).mul_add(x[k], sum);
             }
             x[i] = sum * a[i * n + i];
         }
         for i in (0..n).rev() {
             let mut sum = x[i];
             for k in i + 1..n {
-                sum -= a[k * n + i] * x[k];
+                sum = (-a[k * n + i]).mul_add(x[k], sum);
             }
             x[i] = sum * a[i * n + i];
         }

@@ -89,8 +89,8 @@ fn horner<S: Simd>(terms: &[f64; TERMS], y: Lane<S>) -> (Lane<S>, Lane<S>) {
     let mut value = Lane::splat(simd, terms[TERMS - 1]);
     let mut slope = Lane::splat(simd, 0.0);
     for &term in terms[..TERMS - 1].iter().rev() {
-        slope = slope * y + value;
-        value = value * y + Lane::splat(simd, term);
+        slope = slope.mul_add(y, value);
+        value = value.mul_add(y, Lane::splat(simd, term));
     }
     (value, slope)
 }
@@ -126,7 +126,10 @@ fn sin_cos<S: Simd>(x: Lane<S>) -> (Lane<S>, Lane<S>) {
         -1.13596475577881948265e-11,
     ];
     let quarters = nearest_integer(x * std::f64::consts::FRAC_2_PI);
-    let r = x - quarters * QUARTER[0] - quarters * QUARTER[1] - quarters * QUARTER[2];
+    let part = |p: f64| Lane::splat(x.simd(), -p);
+    let r = quarters.mul_add(part(QUARTER[0]), x);
+    let r = quarters.mul_add(part(QUARTER[1]), r);
+    let r = quarters.mul_add(part(QUARTER[2]), r);
     let z = r * r;
     let one = Lane::splat(x.simd(), 1.0);
     let sine = r + r * z * polynomial(&SINE, z);
@@ -143,7 +146,7 @@ fn sin_cos<S: Simd>(x: Lane<S>) -> (Lane<S>, Lane<S>) {
 fn polynomial<S: Simd, const N: usize>(terms: &[f64; N], z: Lane<S>) -> Lane<S> {
     let mut value = Lane::splat(z.simd(), 0.0);
     for &term in terms.iter().rev() {
-        value = value * z + Lane::splat(z.simd(), term);
+        value = value.mul_add(z, Lane::splat(z.simd(), term));
     }
     value
 }

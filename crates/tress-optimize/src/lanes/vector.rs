@@ -33,15 +33,25 @@ impl<S: Simd> LaneVec3<S> {
 
     #[inline(always)]
     pub(crate) fn dot(self, other: Self) -> Lane<S> {
-        self.x * other.x + self.y * other.y + self.z * other.z
+        self.x.mul_add(other.x, self.y.mul_add(other.y, self.z * other.z))
     }
 
     #[inline(always)]
     pub(crate) fn cross(self, other: Self) -> Self {
         Self::new(
-            self.y * other.z - self.z * other.y,
-            self.z * other.x - self.x * other.z,
-            self.x * other.y - self.y * other.x,
+            self.y.mul_add(other.z, -(self.z * other.y)),
+            self.z.mul_add(other.x, -(self.x * other.z)),
+            self.x.mul_add(other.y, -(self.y * other.x)),
+        )
+    }
+
+    /// `self * factor + other`.
+    #[inline(always)]
+    pub(crate) fn mul_add(self, factor: Lane<S>, other: Self) -> Self {
+        Self::new(
+            self.x.mul_add(factor, other.x),
+            self.y.mul_add(factor, other.y),
+            self.z.mul_add(factor, other.z),
         )
     }
 
@@ -123,7 +133,7 @@ impl<S: Simd> LaneMat3<S> {
     #[inline(always)]
     pub(crate) fn apply(&self, v: LaneVec3<S>) -> LaneVec3<S> {
         let [a, b, c] = self.0;
-        a * v.x + b * v.y + c * v.z
+        a.mul_add(v.x, b.mul_add(v.y, c * v.z))
     }
 
     /// `M^T v`.
@@ -152,9 +162,8 @@ impl<S: Simd> LaneMat3<S> {
     pub(crate) fn times_transposed(&self, other: &Self) -> Self {
         let mut product = [other.0[0]; 3];
         for (i, column) in product.iter_mut().enumerate() {
-            *column = self.0[0] * other.0[0].get(i)
-                + self.0[1] * other.0[1].get(i)
-                + self.0[2] * other.0[2].get(i);
+            let [a, b, c] = other.0.map(|column| column.get(i));
+            *column = self.0[0].mul_add(a, self.0[1].mul_add(b, self.0[2] * c));
         }
         Self(product)
     }
@@ -168,6 +177,64 @@ impl<S: Simd> LaneMat3<S> {
             LaneVec3::new(a.y, b.y, c.y),
             LaneVec3::new(a.z, b.z, c.z),
         ])
+    }
+
+    /// `M^T N`.
+    #[inline(always)]
+    pub(crate) fn transposed_times(&self, other: &Self) -> Self {
+        let [a, b, c] = other.0;
+        Self([self.apply_transposed(a), self.apply_transposed(b), self.apply_transposed(c)])
+    }
+
+    /// `[a]x`.
+    #[inline(always)]
+    pub(crate) fn cross(a: LaneVec3<S>) -> Self {
+        let zero = Lane::splat(a.x.simd(), 0.0);
+        Self([
+            LaneVec3::new(zero, a.z, -a.y),
+            LaneVec3::new(-a.z, zero, a.x),
+            LaneVec3::new(a.y, -a.x, zero),
+        ])
+    }
+
+    #[inline(always)]
+    pub(crate) fn times_lane(&self, factor: Lane<S>) -> Self {
+        let [a, b, c] = self.0;
+        Self([a * factor, b * factor, c * factor])
+    }
+
+    #[inline(always)]
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        self.times_lane(Lane::splat(self.0[0].x.simd(), factor))
+    }
+
+    #[inline(always)]
+    pub(crate) fn negated(&self) -> Self {
+        let [a, b, c] = self.0;
+        Self([-a, -b, -c])
+    }
+
+    /// `M + d I`.
+    #[inline(always)]
+    pub(crate) fn plus_diagonal(&self, d: Lane<S>) -> Self {
+        let [mut a, mut b, mut c] = self.0;
+        a.x += d;
+        b.y += d;
+        c.z += d;
+        Self([a, b, c])
+    }
+
+    /// The inverse of a symmetric matrix, and whether it is positive definite.
+    #[inline(always)]
+    pub(crate) fn inverse_positive(&self) -> (Self, Mask<S>) {
+        let [a, b, c] = self.0;
+        // Rows of the adjugate are crossed columns.
+        let (x, y, z) = (b.cross(c), c.cross(a), a.cross(b));
+        let determinant = a.dot(x);
+        let zero = Lane::splat(determinant.simd(), 0.0);
+        let positive = zero.below(a.x).and(zero.below(z.z)).and(zero.below(determinant));
+        let inverse = Lane::splat(determinant.simd(), 1.0) / determinant;
+        (Self([x * inverse, y * inverse, z * inverse]).transposed(), positive)
     }
 
     /// `[a]x M`.
@@ -197,5 +264,13 @@ impl<S: Simd> LaneMat3<S> {
             LaneVec3::select(mask, b, e),
             LaneVec3::select(mask, c, f),
         ])
+    }
+
+    /// Becomes `new` where the answer is yes.
+    #[inline(always)]
+    pub(crate) fn overwrite(&mut self, mask: Mask<S>, new: &Self) {
+        for (column, new) in self.0.iter_mut().zip(new.0) {
+            *column = LaneVec3::select(mask, new, *column);
+        }
     }
 }
