@@ -4,7 +4,7 @@ use std::fmt;
 
 use tress_geometry::{Attributes, Groom, UpAxis};
 
-use crate::{Columns, Format};
+use crate::Format;
 
 /// Something that a groom has and a file does not.
 ///
@@ -70,6 +70,5 @@ pub fn losses(groom: &Groom, format: Format) -> Vec<Loss> {
     if format == Format::Ply && crate::ply::rounds_colors(groom) {
         lost.push(Loss::ColorDepth);
     }
-    debug_assert!(carries.point_columns != Columns::All || carries.strand_columns == Columns::All);
     lost
 }

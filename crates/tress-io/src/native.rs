@@ -30,6 +30,7 @@ use serde::{Deserialize, Serialize};
 use tress_geometry::{Attributes, Column, Element, Frame, HelixGroom, Kept, Strands, UpAxis};
 
 use crate::binary::widen;
+use crate::text::printed;
 use crate::{ParseError, Place, Problem};
 
 pub use write::write;
@@ -163,12 +164,12 @@ fn check(groom: &HelixGroom) -> Result<(), ParseError> {
         }
         for element in strand.elements {
             if !element.curvature.is_finite() {
-                let found = element.curvature.to_string();
+                let found = format!("{:?}", element.curvature.to_array());
                 let problem = Problem::unexpected("finite curvatures", found);
                 return Err(problem.at(at(CURVATURES)).in_strand(i));
             }
             if !(0.0..f64::INFINITY).contains(&element.length) {
-                let found = element.length.to_string();
+                let found = printed(element.length);
                 let problem = Problem::unexpected("a finite length of at least 0", found);
                 return Err(problem.at(at(LENGTHS)).in_strand(i));
             }

@@ -19,6 +19,7 @@ mod write;
 use std::io::{Cursor, Read};
 
 use glam::DVec3;
+use memchr::memmem;
 use tress_geometry::{Attributes, Column, Groom, Strands, UpAxis};
 use zip::ZipArchive;
 use zip::result::ZipError;
@@ -26,6 +27,7 @@ use zip::result::ZipError;
 use crate::columns::misfit;
 use crate::counts::too_many;
 use crate::npy::{Array, Numbers, uniform};
+use crate::text::printed;
 use crate::{ParseError, Place, Problem};
 
 pub use write::write;
@@ -52,7 +54,7 @@ pub fn read(bytes: &[u8]) -> Result<Groom, ParseError> {
         Some(1.0) => Some(UpAxis::Y),
         Some(2.0) => Some(UpAxis::Z),
         Some(other) => {
-            let problem = Problem::unexpected("1 (y) or 2 (z)", other.to_string());
+            let problem = Problem::unexpected("1 (y) or 2 (z)", printed(other));
             return Err(problem.at(Place::Part(UP.into())));
         }
     };
@@ -123,7 +125,15 @@ struct Archive<'a>(ZipArchive<Cursor<&'a [u8]>>);
 impl<'a> Archive<'a> {
     fn open(bytes: &'a [u8]) -> Result<Self, ParseError> {
         let archive = ZipArchive::new(Cursor::new(bytes));
-        archive.map(Self).map_err(|error| broken(&error).at(Place::File))
+        let archive = archive.map_err(|error| broken(&error).at(Place::File))?;
+        // The last record of an archive is 22 bytes and a comment; a file that goes on is accepted
+        // by the reader above.
+        let last = memmem::rfind(bytes, b"PK\x05\x06").unwrap_or(0);
+        let end = last + 22 + archive.comment().len();
+        match bytes.len().checked_sub(end) {
+            None | Some(0) => Ok(Self(archive)),
+            Some(more) => Err(Problem::Trailing { bytes: more as u64 }.at_byte(end)),
+        }
     }
 
     /// The bytes of an array, if it is there.

@@ -24,6 +24,7 @@ use crate::binary::same;
 use crate::chain::chains;
 use crate::columns::misfit;
 use crate::counts::{gather, too_many};
+use crate::text::printed;
 use crate::{ParseError, Place, Problem};
 
 use header::Header;
@@ -167,7 +168,7 @@ impl Contents {
         let strand = || Place::Part("element strand".into());
         let mut counts = Vec::with_capacity(segments.len());
         for (i, &[n]) in segments.iter().enumerate() {
-            let problem = || Problem::unexpected("a number of segments", n.to_string());
+            let problem = || Problem::unexpected("a number of segments", printed(n));
             let n = whole(n).ok_or_else(|| problem().at(strand()).in_strand(i))?;
             counts.push(n as usize + 1);
         }
@@ -249,5 +250,5 @@ fn whole(value: f64) -> Option<u32> {
 fn vertex(value: f64, vertices: usize) -> Result<u32, Problem> {
     let there = whole(value).filter(|&i| (i as usize) < vertices);
     let expected = || format!("the index of one of {vertices} vertices");
-    there.ok_or_else(|| Problem::unexpected(expected(), value.to_string()))
+    there.ok_or_else(|| Problem::unexpected(expected(), printed(value)))
 }

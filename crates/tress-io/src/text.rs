@@ -143,6 +143,14 @@ pub(crate) fn write_number(out: &mut impl io::Write, value: f64) -> io::Result<(
     }
 }
 
+/// The same number for a message.
+pub(crate) fn printed(value: f64) -> String {
+    let mut text = Vec::new();
+    // Memory takes all that is written to it.
+    let _ = write_number(&mut text, value);
+    String::from_utf8_lossy(&text).into_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

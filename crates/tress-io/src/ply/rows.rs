@@ -2,7 +2,7 @@
 
 use super::header::{Element, Encoding, Header, Kind, Property};
 use crate::binary::Bytes;
-use crate::text::{Lines, number, words};
+use crate::text::{Lines, number, printed, words};
 use crate::{ParseError, Place, Problem};
 
 /// Calls `each` with every row: which element it is of, and its numbers, 0 in place of lists.
@@ -97,7 +97,7 @@ fn list_length(value: f64) -> Result<u64, Problem> {
     if value.fract() == 0.0 && (0.0..=4294967295.0).contains(&value) {
         return Ok(value as u64);
     }
-    Err(Problem::unexpected("the length of a list", value.to_string()))
+    Err(Problem::unexpected("the length of a list", printed(value)))
 }
 
 fn binary(
