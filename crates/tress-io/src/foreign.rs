@@ -25,9 +25,17 @@ pub(crate) fn no_panic<T>(
     })
 }
 
-/// The message on one line.
+/// Letters of a message that are passed on. Libraries quote what they do not understand, which may
+/// be the whole file.
+const LONGEST: usize = 200;
+
+/// The message on one line, not too long.
 pub(crate) fn one_line(message: &str) -> String {
-    message.split_whitespace().collect::<Vec<_>>().join(" ")
+    let line = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    match line.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{} ...", &line[..end]),
+        None => line,
+    }
 }
 
 #[cfg(test)]
@@ -40,5 +48,6 @@ mod tests {
         let message = error.expect_err("the panic").to_string();
         assert_eq!(message, "the library cannot make sense of the file (index 7 of 3 is odd)");
         assert_eq!(no_panic("the library", || Ok(3)).expect("no panic"), 3);
+        assert_eq!(one_line(&"\u{e9}".repeat(1000)).chars().count(), LONGEST + 4);
     }
 }

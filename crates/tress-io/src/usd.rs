@@ -6,7 +6,7 @@
 //! `group` tells which prim a strand is from. Points come out *on* the curves: those of
 //! linear and pinned Catmull-Rom curves are kept exactly, B-spline and Bezier curves are
 //! evaluated at 4 points a control point, which a Catmull-Rom curve through them follows to
-//! 0.03 % of the radius of a coil of 5 control points a turn.
+//! 0.06 % of the radius of a coil of 5 control points a turn.
 //!
 //! | in the file | in the groom |
 //! |---|---|

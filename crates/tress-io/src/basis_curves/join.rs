@@ -18,7 +18,9 @@ const PRIM: &str = "prim";
 ///
 /// If there are more points than 32 bits tell apart.
 pub(crate) fn join(mut parts: Vec<Groom>) -> Result<Groom, OffsetsError> {
-    parts.retain(|part| !part.strands().is_empty());
+    if 1 < parts.len() {
+        parts.retain(|part| !part.strands().is_empty());
+    }
     if parts.len() <= 1 {
         return Ok(parts.pop().unwrap_or_else(|| Groom::new(Strands::default())));
     }

@@ -7,25 +7,12 @@ use tress_geometry::curves::CubicBasis;
 use tress_geometry::{Column, Groom, Strands, names};
 
 use super::{part, transform, unreadable, values};
-use crate::basis_curves::{BasisCurves, CurveType, Wrap};
+use crate::basis_curves::{self, BasisCurves, CurveType, Rows, Wrap};
 use crate::{ParseError, Place, Problem};
 
 const PRIMVARS: &str = "primvars:";
 /// What the array of indices into an indexed primvar is called behind the primvar's name.
 const INDICES: &str = ":indices";
-
-/// Rows of an attribute: USD's interpolation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Rows {
-    /// One.
-    Constant,
-    /// One a curve.
-    Uniform,
-    /// One a knot.
-    Varying,
-    /// One a control point.
-    Vertex,
-}
 
 /// The curves of `prim`, evaluated and moved to where they stand on the stage.
 pub(super) fn read(prim: &Prim) -> Result<Groom, ParseError> {
@@ -158,44 +145,8 @@ fn attach(
         },
         _ => fallback,
     };
-    let rows = column.rows();
-    let Some(meant) = interpolation(declared, rows, curves) else {
-        let expected = format!(
-            "{declared:?} rows ({} curves, {} knots, {} points)",
-            curves.len(),
-            curves.knots(),
-            curves.control_points()
-        );
-        return Err(Problem::unexpected(expected.to_lowercase(), format!("{rows} rows"))
-            .at(property(prim, property_name)));
-    };
-    let inserted = match meant {
-        Rows::Constant => {
-            groom.insert_strand_attribute(name, column.select((0..curves.len()).map(|_| 0)))
-        }
-        Rows::Uniform => groom.insert_strand_attribute(name, column),
-        Rows::Varying => groom.insert_point_attribute(name, curves.at_knots(column)),
-        Rows::Vertex => groom.insert_point_attribute(name, curves.at_control_points(column)),
-    };
-    inserted
+    basis_curves::attach(groom, curves, name, column, declared)
         .map_err(|error| Problem::Unsupported(error.to_string()).at(property(prim, property_name)))
-}
-
-/// What `rows` rows are, where files say one thing and mean another: exporters call a single value
-/// `vertex`, and take `vertex` and `varying` for the same.
-fn interpolation(declared: Rows, rows: usize, curves: &BasisCurves) -> Option<Rows> {
-    let count = |meaning| match meaning {
-        Rows::Constant => 1,
-        Rows::Uniform => curves.len(),
-        Rows::Varying => curves.knots(),
-        Rows::Vertex => curves.control_points(),
-    };
-    let others: &[Rows] = match declared {
-        Rows::Constant | Rows::Uniform => &[Rows::Constant],
-        Rows::Varying => &[Rows::Varying, Rows::Vertex, Rows::Constant],
-        Rows::Vertex => &[Rows::Vertex, Rows::Varying, Rows::Constant],
-    };
-    std::iter::once(declared).chain(others.iter().copied()).find(|&meaning| count(meaning) == rows)
 }
 
 /// The column with `size` rows made one.
