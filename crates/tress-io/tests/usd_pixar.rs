@@ -1,0 +1,112 @@
+//! What is written as USD, as Pixar's own library reads it. Needs Python with `pxr` (the package
+//! `usd-core`); without it the test says so and passes.
+
+use std::path::Path;
+use std::process::Command;
+
+use glam::DVec3;
+use tress_geometry::{Column, Groom, Strands, UpAxis};
+use tress_io::{UsdCurves, WriteOptions};
+
+/// Prints what the file says, one fact a line, numbers in full.
+const PRINT: &str = r#"
+import sys
+from pxr import Usd, UsdGeom
+stage = Usd.Stage.Open(sys.argv[1])
+print("unit", UsdGeom.GetStageMetersPerUnit(stage))
+print("up", UsdGeom.GetStageUpAxis(stage))
+print("default", stage.GetDefaultPrim().GetPath())
+prim = [p for p in stage.Traverse() if p.IsA(UsdGeom.BasisCurves)][0]
+curves = UsdGeom.BasisCurves(prim)
+print("type", curves.GetTypeAttr().Get(), curves.GetBasisAttr().Get(), curves.GetWrapAttr().Get())
+print("counts", *curves.GetCurveVertexCountsAttr().Get())
+print("points", *[repr(x) for p in curves.GetPointsAttr().Get() for x in p])
+print("widths", curves.GetWidthsInterpolation(), *curves.GetWidthsAttr().Get())
+print("normals", curves.GetNormalsAttr().HasAuthoredValue())
+fits = UsdGeom.Boundable.ComputeExtentFromPlugins(curves, Usd.TimeCode.Default())
+print("extent", all((a - b).GetLength() < 1e-5 for a, b in zip(fits, curves.GetExtentAttr().Get())))
+for primvar in UsdGeom.PrimvarsAPI(prim).GetPrimvarsWithValues():
+    print(primvar.GetPrimvarName(), primvar.GetTypeName(), primvar.GetInterpolation(),
+          primvar.GetElementSize(), *primvar.Get())
+try:
+    from pxr import UsdValidation
+    validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
+    for error in UsdValidation.ValidationContext(validators).Validate(stage):
+        print("error", error.GetName(), error.GetMessage())
+except ImportError:
+    pass
+"#;
+
+fn has_pixar() -> bool {
+    let found = Command::new("python3").args(["-c", "import pxr"]).output();
+    let found = found.is_ok_and(|output| output.status.success());
+    if !found {
+        eprintln!("skipped: python3 has no module pxr (pip install usd-core)");
+    }
+    found
+}
+
+fn print(path: &Path) -> Vec<String> {
+    let output =
+        Command::new("python3").args(["-c", PRINT]).arg(path).output().expect("python3 runs");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()
+}
+
+fn groom() -> Groom {
+    let points: Vec<DVec3> =
+        (0..60).map(|i| DVec3::new(0.1, 1e-7, -1.0 / 3.0) * f64::from(i)).collect();
+    let strands = Strands::from_counts([57, 2, 1], points).expect("sixty");
+    let mut groom = Groom::new(strands).in_space(Some(0.01), Some(UpAxis::Z));
+    let insert = |groom: &mut Groom, name: &str, column| {
+        groom.insert_strand_attribute(name, column).expect("a row a strand");
+    };
+    insert(&mut groom, "id", Column::Int(vec![1, -2, 1 << 40]));
+    insert(&mut groom, "seven", Column::Float { components: 7, values: vec![0.5; 21] });
+    insert(&mut groom, "uv", Column::Float { components: 2, values: vec![0.25; 6] });
+    insert(&mut groom, "color", Column::Float { components: 3, values: vec![1.0; 9] });
+    groom
+}
+
+#[test]
+fn pixar_reads_what_was_written() {
+    if !has_pixar() {
+        return;
+    }
+    let mut groom = groom();
+    for (kind, expected, widths) in [
+        (UsdCurves::Linear, "type linear bezier nonperiodic", "constant 0.009999999776482582"),
+        (UsdCurves::CatmullRom, "type cubic catmullRom pinned", "uniform 0.5 1.0 2.0"),
+    ] {
+        let dir = tempfile::tempdir().expect("a folder");
+        let path = dir.path().join("hair.usda");
+        tress_io::write(&path, &groom, &WriteOptions { usd_curves: kind }).expect("a file");
+        let facts = print(&path);
+        let fact = |name: &str| {
+            let line = facts.iter().find(|line| line.split(' ').next() == Some(name));
+            line.map(|line| line[name.len()..].trim().to_owned()).unwrap_or_default()
+        };
+        assert!(facts.contains(&expected.to_owned()), "{facts:?}");
+        assert_eq!(
+            (fact("unit"), fact("up"), fact("default")),
+            ("0.01".into(), "Z".into(), "/groom".into())
+        );
+        assert_eq!(fact("counts"), "57 2 1");
+        assert_eq!((fact("normals"), fact("extent")), ("False".into(), "True".into()));
+        let theirs: Vec<f64> =
+            fact("points").split(' ').map(|number| number.parse().expect("a number")).collect();
+        let ours = groom.strands().points().iter().flat_map(|point| point.as_vec3().to_array());
+        assert!(ours.map(f64::from).eq(theirs), "{:?}", fact("points"));
+        assert_eq!(fact("id"), "int64[] uniform 1 1 -2 1099511627776");
+        assert!(fact("seven").starts_with("float[] uniform 7 0.5 0.5"));
+        assert!(fact("st").starts_with("texCoord2f[] uniform 1 (0.25, 0.25)"));
+        assert!(fact("displayColor").starts_with("color3f[] uniform 1 (1, 1, 1)"));
+        assert_eq!(fact("widths"), widths);
+        // One strand has a single point, which is no curve to USD; nothing else may be wrong.
+        let errors: Vec<_> = facts.iter().filter(|line| line.starts_with("error")).collect();
+        assert!(errors.iter().all(|error| error.contains("urve")), "{errors:?}");
+        let width = Column::scalar(vec![0.5, 1.0, 2.0]);
+        groom.insert_strand_attribute("width", width).expect("a row a strand");
+    }
+}
