@@ -90,7 +90,7 @@ fn every_kind_of_attribute_finds_its_column() {
         string primvars:said = \"nothing\"",
     )
     .expect("a stage");
-    assert_eq!(groom.strands().points()[0].x, 0.1, "doubles keep their bits");
+    assert_eq!(groom.strands().points()[0], DVec3::new(0.1, 0.0, 0.0), "doubles keep their bits");
     let strands = |name: &str| groom.strand_attributes().get(name).cloned();
     assert_eq!(strands(names::WIDTH), Some(Column::scalar(vec![0.5, 0.25])));
     let color = vec![1.0, 0.5, 0.0, 1.0, 0.5, 0.0];

@@ -96,7 +96,7 @@ fn topology(
     let is_linear = kind == CurveType::Linear;
     if let Some(PodArray::F32(weights)) = first("w")?
         && !is_linear
-        && weights.iter().any(|weight| *weight != 1.0)
+        && weights.iter().any(|weight| (weight - 1.0).abs() > f32::EPSILON)
     {
         return refuse("curves with weights");
     }
@@ -171,7 +171,7 @@ fn attach(
     let Some((column, rows)) = properties::column(hierarchy, &property, place)? else {
         return Ok(());
     };
-    // Blender says nothing of the widths it writes.
+    // Blender does not say what its widths are of.
     let uniform = column.rows() == curves.len() && column.rows() != curves.control_points();
     let rows = rows.unwrap_or(if uniform { Rows::Uniform } else { Rows::Vertex });
     basis_curves::attach(groom, curves, ours, column, rows).map_err(|error| {

@@ -15,7 +15,7 @@ use crate::basis_curves::Rows;
 use crate::{ParseError, Place, Problem};
 
 /// Bytes of the digest.
-const DIGEST: u64 = 16;
+const DIGEST: usize = 16;
 
 /// The compound of this name among the properties of an object, as `.geom` of curves.
 pub(super) fn of_object(
@@ -83,7 +83,7 @@ pub(super) fn sample(
     }
     let file = &mut hierarchy.file;
     let data = group.load_data(file, 0).map_err(|e| unreadable(place.clone(), &e))?;
-    if data.size <= DIGEST {
+    if data.size <= DIGEST as u64 {
         return Ok(None);
     }
     data.read_pod_array(&header.data_type, file)
@@ -102,12 +102,12 @@ pub(super) fn flag(
     };
     let file = &mut hierarchy.file;
     let data = group.load_data(file, 0).map_err(|e| unreadable(place.clone(), &e))?;
-    if data.size <= DIGEST {
+    if data.size <= DIGEST as u64 {
         return Ok(None);
     }
-    let mut sample = [0_u8; DIGEST as usize + 1];
+    let mut sample = [0_u8; DIGEST + 1];
     data.read(0, file, &mut sample).map_err(|e| unreadable(place.clone(), &e))?;
-    Ok(Some(sample[DIGEST as usize] != 0))
+    Ok(Some(sample[DIGEST] != 0))
 }
 
 /// A geometry parameter: its rows, looked up if it has indices, and what they stand for if it

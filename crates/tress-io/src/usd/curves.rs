@@ -132,8 +132,8 @@ fn attach(
         return Ok(());
     };
     let attribute = prim.attribute(property_name);
-    let size = attribute.get_metadata::<Value>("elementSize").ok().flatten();
-    let column = wide_rows(column, size.as_ref().and_then(values::scalar).unwrap_or(1.0));
+    let size = attribute.get_metadata::<i32>("elementSize").ok().flatten().unwrap_or(1);
+    let column = wide_rows(column, usize::try_from(size).unwrap_or(1));
     let column = indexed(column, prim, property_name)?;
     let declared = match attribute.get_metadata::<Value>("interpolation").ok().flatten() {
         Some(Value::Token(token)) => match token.as_str() {
@@ -149,21 +149,13 @@ fn attach(
         .map_err(|error| Problem::Unsupported(error.to_string()).at(property(prim, property_name)))
 }
 
-/// The column with `size` rows made one.
-fn wide_rows(column: Column, size: f64) -> Column {
+/// The column with `size` rows made one, if that comes out even.
+fn wide_rows(column: Column, size: usize) -> Column {
     match column {
-        Column::Float { components, values } if 1.0 < size && size <= 4096.0 => {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "held above"
-            )]
-            let wide = components * size as usize;
-            if values.len().is_multiple_of(wide) {
-                Column::Float { components: wide, values }
-            } else {
-                Column::Float { components, values }
-            }
+        Column::Float { components, values } if 1 < size => {
+            let wide = components.saturating_mul(size);
+            let even = values.len().is_multiple_of(wide);
+            Column::Float { components: if even { wide } else { components }, values }
         }
         other => other,
     }
