@@ -2,8 +2,7 @@
 //!
 //! Within a square of the picture the pieces of hair are taken from front to back. A pixel keeps
 //! the colour so far and the share `T` of it that is still free; a fragment of coverage `a` and
-//! colour `c` adds `T a c` and leaves `T (1 - a)`. Hair that is behind what is full costs nothing,
-//! and is never shaded.
+//! colour `c` adds `T a c` and leaves `T (1 - a)`; where nothing is free, the rest is not looked at.
 
 use glam::Vec3;
 use image::RgbImage;
@@ -11,7 +10,7 @@ use rayon::prelude::*;
 use tress_geometry::Strands;
 
 use crate::camera::Size;
-use crate::color::encode;
+use crate::color::Encoder;
 use crate::density::Grid;
 use crate::flatten::Vertex;
 use crate::num::index;
@@ -24,7 +23,7 @@ use crate::tiles::{EDGE, Tiles};
 const FULL: f32 = 1.0 / 256.0;
 
 /// Cells of the shadow grid along its longest side.
-const SHADOW_CELLS: u32 = 200;
+const SHADOW_CELLS: u32 = 160;
 
 /// What a hair is like, by the value its vertices carry.
 pub(crate) trait Paint: Sync {
@@ -73,9 +72,13 @@ pub(crate) fn draw(
     stage: &Stage,
     size: Size,
 ) -> RgbImage {
-    let (shadows, tiles) =
-        rayon::join(|| Shadows::new(strands, stage), || Tiles::new(strands, size));
-    let painter = Painter { vertices: strands.points(), paint, stage, shadows };
+    let vertices = strands.points();
+    let (lit, tiles) = rayon::join(
+        || light(vertices, paint, stage, &Shadows::new(strands, stage)),
+        || Tiles::new(strands, size),
+    );
+    let painter = Painter { vertices, lit, background: stage.background };
+    let encoder = Encoder::new();
     let width = size.width as usize;
     let mut bytes = vec![0_u8; 3 * width * size.height as usize];
     let band = 3 * width * EDGE as usize;
@@ -88,11 +91,26 @@ pub(crate) fn draw(
         for (y, line) in band.chunks_exact_mut(3 * width).enumerate() {
             let pixels = squares.iter().flat_map(|square| square.row(y));
             for (bytes, light) in line.chunks_exact_mut(3).zip(pixels) {
-                bytes.copy_from_slice(&encode(light));
+                bytes.copy_from_slice(&encoder.encode(light));
             }
         }
     });
     RgbImage::from_raw(size.width, size.height, bytes).unwrap_or_default()
+}
+
+/// The light that each vertex sends to the viewer.
+fn light(vertices: &[Vertex], paint: &impl Paint, stage: &Stage, shadows: &Shadows) -> Vec<Vec3> {
+    let shade = |i: usize| {
+        let Vertex { position, value, .. } = vertices[i];
+        let (color, tilt) = paint.fibre(value);
+        let fibre = Fibre { tangent: tangent(vertices, i), color, tilt };
+        let mut light = color * stage.sky * shadows.sky.at(position);
+        for (source, depth) in stage.lights.iter().zip(&shadows.depths) {
+            light += scatter(&stage.material, &fibre, source, depth.at(position));
+        }
+        light
+    };
+    (0..vertices.len()).into_par_iter().with_min_len(1 << 12).map(shade).collect()
 }
 
 /// The accumulators of one square.
@@ -110,14 +128,14 @@ impl Square {
     }
 }
 
-struct Painter<'a, P> {
+struct Painter<'a> {
     vertices: &'a [Vertex],
-    paint: &'a P,
-    stage: &'a Stage,
-    shadows: Shadows,
+    /// The light that each vertex sends to the viewer.
+    lit: Vec<Vec3>,
+    background: Vec3,
 }
 
-impl<P: Paint> Painter<'_, P> {
+impl Painter<'_> {
     fn square(&self, tiles: &Tiles, tile: usize) -> Square {
         let edge = EDGE.cast_signed();
         let [left, top] = tiles.corner(tile);
@@ -125,15 +143,13 @@ impl<P: Paint> Painter<'_, P> {
         let mut open = pixels.len();
         for i in self.by_depth(tiles.pieces(tile)) {
             let Some(piece) = Piece::new(self.vertices, i) else { continue };
-            let mut colors = None;
+            let (a, b) = (self.lit[i], self.lit[i + 1]);
             piece.cover(left..left + edge, top..top + edge, |fragment: Fragment| {
                 let (x, y) = (fragment.x - left, fragment.y - top);
                 let (color, free) = &mut pixels[index(y * edge + x)];
                 if *free < FULL {
                     return;
                 }
-                let [a, b]: [Vec3; 2] =
-                    *colors.get_or_insert_with(|| [i, i + 1].map(|i| self.shade(i)));
                 let here = (a + (b - a) * fragment.along) * round(&fragment);
                 *color += here * (*free * fragment.coverage);
                 *free *= 1.0 - fragment.coverage;
@@ -145,7 +161,7 @@ impl<P: Paint> Painter<'_, P> {
                 break;
             }
         }
-        Square { pixels, background: self.stage.background }
+        Square { pixels, background: self.background }
     }
 
     /// First vertices of pieces, the nearest piece first; equally near ones in their own order.
@@ -158,19 +174,6 @@ impl<P: Paint> Painter<'_, P> {
             pieces.map(|i| u64::from(ascending(depth(i))) << 32 | u64::from(i)).collect();
         order.sort_unstable();
         order.into_iter().map(|key| low_half(key) as usize)
-    }
-
-    /// The light that a vertex sends to the viewer.
-    fn shade(&self, i: usize) -> Vec3 {
-        let vertex = &self.vertices[i];
-        let (color, tilt) = self.paint.fibre(vertex.value);
-        let fibre = Fibre { tangent: tangent(self.vertices, i), color, tilt };
-        let mut light = color * self.stage.sky * self.shadows.sky.at(vertex.position);
-        for (source, depth) in self.stage.lights.iter().zip(&self.shadows.depths) {
-            let tau = depth.at(vertex.position);
-            light += scatter(&self.stage.material, &fibre, source, tau);
-        }
-        light
     }
 }
 

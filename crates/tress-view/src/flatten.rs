@@ -103,8 +103,7 @@ impl Curve {
         }));
         self.tangents.clear();
         for run in self.points.chunk_by(|a, b| a.is_finite() && b.is_finite()) {
-            let tangent = |i| catmull_rom_derivative(run, i, 1.0).normalize_or_zero();
-            self.tangents.extend((0..run.len()).map(tangent));
+            tangents(run, &mut self.tangents);
         }
         self.pieces.clear();
         for i in 1..self.points.len() {
@@ -151,6 +150,23 @@ impl Curve {
                 put(segment.at(t), mix(radii), mix(values));
             }
         }
+    }
+}
+
+/// Appends the unit tangents at points that are all finite, or at a single one.
+fn tangents(run: &[DVec3], tangents: &mut Vec<DVec3>) {
+    let first = tangents.len();
+    let at = |i| catmull_rom_derivative(run, i, 1.0).normalize_or_zero();
+    tangents.extend((0..run.len()).map(at));
+    let Some(last) = run.len().checked_sub(2) else { return };
+    // A circle's tangents at both ends of a chord mirror each other.
+    let mirrored = |a: usize, b: usize, t: DVec3| {
+        let chord = (run[b] - run[a]).normalize_or_zero();
+        2.0 * t.dot(chord) * chord - t
+    };
+    if 0 < last {
+        tangents[first] = mirrored(0, 1, tangents[first + 1]);
+        tangents[first + last + 1] = mirrored(last, last + 1, tangents[first + last]);
     }
 }
 

@@ -58,7 +58,7 @@ pub(crate) fn legend(scale: &Scale, missing: Option<&str>, size: Size, paper: Rg
     let bottom = top + layout.bar;
     fill(&mut strip, [left, left + bar_width], [top, bottom], |t| scale.map.rgb(f64::from(t)));
 
-    let most = crate::num::index(crate::num::floor(bar_width / (4.5 * layout.line))).clamp(2, 9);
+    let most = crate::num::index(crate::num::floor(bar_width / (4.5 * layout.line))).clamp(3, 9);
     for tick in scale.ticks(most) {
         let place = narrow(scale.place(tick.value).unwrap_or(0.5));
         let x = left + place * (bar_width - 1.0);
@@ -78,4 +78,31 @@ pub(crate) fn legend(scale: &Scale, missing: Option<&str>, size: Size, paper: Rg
         letters.draw(&mut strip, x, top + 0.5 * (layout.bar - layout.line), &words, ink);
     }
     strip
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_legend_shows_its_map_from_end_to_end_at_any_size() {
+        for (width, height) in [(100, 200), (400, 300), (1600, 1600)] {
+            let size = Size::new(width, height);
+            let scale = Scale { title: "turns".into(), ..Scale::spanning([2.0, 20.0]) };
+            let strip = legend(&scale, Some("no value: 3 of 9 strands"), size, [30; 3]);
+            assert_eq!(strip.width(), width);
+            for color in [scale.map.rgb(0.0), scale.map.rgb(1.0), NO_VALUE] {
+                let shown = strip.pixels().any(|pixel| pixel.0 == color);
+                assert!(shown || (color == NO_VALUE && width < 300), "{color:?} at {width}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_picture_too_low_for_a_legend_has_none() {
+        assert_eq!(height(Size::new(500, 30)), 0);
+        let strip = legend(&Scale::default(), None, Size::new(500, 30), [0; 3]);
+        assert_eq!(strip.dimensions(), (500, 0));
+        assert!(0 < height(Size::new(500, 300)));
+    }
 }

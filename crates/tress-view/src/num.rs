@@ -7,9 +7,12 @@ pub(crate) fn narrow(x: f64) -> f32 {
 }
 
 /// The whole number below; the nearest there is outside of the range, 0 for NaN.
+///
+/// Not `f32::floor`, which is a call into the C library on processors of the common baseline.
 #[expect(clippy::cast_possible_truncation, reason = "`as` saturates")]
 pub(crate) fn floor(x: f32) -> i32 {
-    x.floor() as i32
+    let whole = x as i32;
+    if x < whole as f32 { whole.saturating_sub(1) } else { whole }
 }
 
 /// The whole number above, held to 0 to `most`; 0 for NaN.

@@ -158,8 +158,8 @@ impl Scale {
         self.place(value).map(|t| self.map.rgb(t))
     }
 
-    /// Round numbers between the ends, `most` of them at most and two at least, written with as
-    /// many decimals as tell them apart.
+    /// Round numbers between the ends, `most` of them at most (two at least where that is 5 or
+    /// more), written with as many decimals as tell them apart.
     ///
     /// A range without width has its number alone; one with an end that is not finite has none.
     ///
@@ -179,7 +179,7 @@ impl Scale {
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         let (low, high) = (self.min.min(self.max), self.min.max(self.max));
         let span = high - low;
-        if !span.is_finite() {
+        if self.min.is_nan() || self.max.is_nan() || !span.is_finite() {
             return Vec::new();
         }
         if span <= 1e-12 * high.abs().max(low.abs()) {
@@ -214,7 +214,7 @@ fn ticks(first: f64, last: f64, digit: f64, exponent: f64, greatest: f64) -> Vec
                 let (digits, own) = split(multiple);
                 format!("{digits}e{}", own + exponent)
             } else {
-                let decimals = crate::num::ceil_to_count(-exponent, 9) as usize;
+                let decimals = crate::num::ceil_to_count(-exponent, 15) as usize;
                 format!("{value:.decimals$}")
             };
             Tick { value, label: sign(label) }

@@ -20,6 +20,14 @@ const TO_VIEWER: Vec3 = Vec3::NEG_Z;
 /// Tilt of the scales, in radians: two degrees.
 const TILT: f32 = 0.035;
 
+/// Around the fibre (the cosine of the angle between light and viewer), `TT` is below a hundredth
+/// of its peak above this, and `TRT` below this.
+const TT_BELOW: f32 = 0.2;
+const TRT_ABOVE: f32 = 0.7;
+
+/// A beam with less than this left is not asked which way it goes: no step of an 8-bit colour.
+const SPENT: f32 = 1.0 / 512.0;
+
 /// A light far away.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Light {
@@ -63,10 +71,12 @@ pub(crate) fn scatter(material: &Material, fibre: &Fibre, light: &Light, tau: f3
     let beam = (-tau).exp();
     let diffuse = (1.0 - sin_i * sin_i).max(0.0).sqrt() * (-material.depth * tau).exp();
     let scattered = color * (material.scattered * diffuse);
+    if beam < SPENT {
+        return scattered * light.intensity;
+    }
     let mut angles = Angles::new(t, l, sin_i, sin_o);
     angles.sines += fibre.tilt;
-    let direct = angles.ways(material, color) * beam;
-    (scattered + direct) * light.intensity
+    (scattered + angles.ways(material, color) * beam) * light.intensity
 }
 
 /// Angles between fibre, light and viewer.
@@ -103,23 +113,23 @@ impl Angles {
             let mirrored = fresnel((0.5 + 0.5 * self.cos_lv).max(0.0).sqrt());
             gaussian(width, self.sines + 2.0 * TILT) * around * mirrored
         };
-        let tt = {
+        let mut inside = Vec3::ZERO;
+        if 0.0 < material.inside && self.cos_phi < TT_BELOW {
             let bend = 1.0 / (1.19 / self.cos_d + 0.36 * self.cos_d);
             let h = self.cos_half_phi * (1.0 + bend * (0.6 - 0.8 * self.cos_phi));
             let let_in = 1.0 - fresnel(self.cos_d * (1.0 - h * h).max(0.0).sqrt());
             let way = 0.5 * (1.0 - (h * bend) * (h * bend)).max(0.0).sqrt() / self.cos_d;
             let around = (-3.65 * self.cos_phi - 3.98).exp();
             let along = gaussian(0.5 * beta, self.sines - TILT);
-            power(color, way) * (along * around * let_in * let_in)
-        };
-        let trt = {
+            inside = power(color, way) * (along * around * let_in * let_in);
+        } else if 0.0 < material.inside && TRT_ABOVE < self.cos_phi {
             let mirrored = fresnel(0.5 * self.cos_d);
             let let_in = 1.0 - mirrored;
             let around = (17.0 * self.cos_phi - 16.78).exp();
             let along = gaussian(2.0 * beta, self.sines - 4.0 * TILT);
-            power(color, 0.8 / self.cos_d) * (along * around * let_in * let_in * mirrored)
-        };
-        Vec3::splat(material.surface * r) + (tt + trt) * material.inside
+            inside = power(color, 0.8 / self.cos_d) * (along * around * let_in * let_in * mirrored);
+        }
+        Vec3::splat(material.surface * r) + inside * material.inside
     }
 }
 

@@ -92,3 +92,36 @@ pub fn sheet(panels: &[Panel<'_>], columns: usize, paper: Rgb) -> Result<RgbImag
     }
     Ok(sheet)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_stand_whole_in_their_places() {
+        let paint = |w, h, v| RgbImage::from_pixel(w, h, Pixel([v; 3]));
+        let (a, b, c) = (paint(120, 80, 10), paint(60, 80, 20), paint(120, 40, 30));
+        let panels = [&a, &b, &c].map(|image| Panel { image, caption: "x" });
+        let sheet = sheet(&panels, 2, [255; 3]).expect("a sheet");
+        for (image, v) in [(&a, 10), (&b, 20), (&c, 30)] {
+            let count = sheet.pixels().filter(|p| p.0 == [v; 3]).count();
+            assert_eq!(count, (image.width() * image.height()) as usize);
+        }
+        assert!(sheet.width() < 2 * 120 + 60 && sheet.height() < 2 * 80 + 150);
+    }
+
+    #[test]
+    fn captions_are_read_on_light_and_dark_paper_and_cut_when_long() {
+        let image = RgbImage::from_pixel(200, 100, Pixel([128; 3]));
+        for paper in [[255; 3], [20; 3]] {
+            let with = |caption| {
+                let panels = [Panel { image: &image, caption }];
+                sheet(&panels, 9, paper).expect("a sheet")
+            };
+            let (blank, short) = (with(""), with("after"));
+            assert_eq!(blank.dimensions(), with(&"long ".repeat(99)).dimensions());
+            let inked = short.pixels().zip(blank.pixels()).filter(|(a, b)| a != b).count();
+            assert!(50 < inked && inked < 2000, "{inked}");
+        }
+    }
+}

@@ -95,3 +95,37 @@ pub(crate) fn fill(image: &mut RgbImage, x: [f32; 2], y: [f32; 2], color: impl F
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_typeface_is_there_and_has_the_signs_of_the_field() {
+        let letters = Type::new(20.0);
+        let font = letters.font.as_ref().expect("the typeface is read");
+        for sign in "aZ09.,()/%\u{2212}\u{2026}\u{00b0}\u{00b5}\u{03ba}\u{03c9}\u{03b2}".chars() {
+            assert_ne!(font.glyph_id(sign).0, 0, "{sign}");
+        }
+        assert!(letters.width("mm") > letters.width("ii"));
+    }
+
+    #[test]
+    fn long_words_are_cut_to_fit() {
+        let letters = Type::new(16.0);
+        let cut = letters.fitted("a groom of many strands", 80.0);
+        assert!(cut.ends_with('\u{2026}') && letters.width(&cut) <= 80.0 && 4 < cut.len(), "{cut}");
+        assert_eq!(letters.fitted("short", 80.0), "short");
+        assert_eq!(letters.fitted("anything", 0.0), "");
+        assert_eq!(letters.fitted("anything", f32::NAN), "");
+    }
+
+    #[test]
+    fn words_outside_of_the_picture_are_left_out() {
+        let mut image = RgbImage::new(10, 10);
+        for (x, y) in [(-50.0, 0.0), (0.0, -50.0), (9e9, 3.0), (f32::NAN, f32::NAN), (-3.0, -3.0)] {
+            Type::new(12.0).draw(&mut image, x, y, "edge", [255; 3]);
+        }
+        assert!(image.pixels().any(|pixel| pixel.0 != [0; 3]), "the last one is seen in part");
+    }
+}

@@ -105,3 +105,36 @@ fn touched(a: &Vertex, b: &Vertex, across: usize, down: usize) -> impl Iterator<
     let rows = if there { squares(p.y.min(q.y), p.y.max(q.y), down) } else { 0..0 };
     rows.flat_map(move |row| columns.clone().map(move |column| row * across + column))
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn every_piece_is_in_every_square_it_reaches(
+            points in prop::collection::vec((-50.0_f32..400.0, -50.0_f32..300.0), 2..300),
+        ) {
+            let vertex = |&(x, y): &(f32, f32)| {
+                Vertex { position: Vec3::new(x, y, 0.0), radius: 0.5, value: 0.0 }
+            };
+            let vertices: Vec<Vertex> = points.iter().map(vertex).collect();
+            let n = vertices.len();
+            let strands = Strands::from_counts(vec![1; n], vertices).expect("one point a strand");
+            let tiles = Tiles::new(&strands, Size::new(300, 200));
+            for (i, ends) in points.windows(2).enumerate() {
+                for (x, y) in ends {
+                    if (0.0..300.0).contains(x) && (0.0..200.0).contains(y) {
+                        let square = |v: &f32| index(floor(v / EDGE as f32));
+                        let tile = square(y) * tiles.across + square(x);
+                        let i = u32::try_from(i).expect("few pieces");
+                        prop_assert_eq!(tiles.pieces(tile).filter(|&p| p == i).count(), 1);
+                    }
+                }
+            }
+        }
+    }
+}
