@@ -29,5 +29,5 @@ pub use cluster::{ClusterError, Clusters, k_means, root_tip_features};
 pub use defects::{Defects, LONG_SEGMENT, defects};
 pub use quantiles::Quantiles;
 pub use quantity::{Quantity, QuantityValues, UnknownQuantity, quantity};
-pub use strand::{Hand, StrandMeasures, measure};
+pub use strand::{Hand, StrandMeasures, measure, smoothed};
 pub use summary::{GroomSummary, summarize};

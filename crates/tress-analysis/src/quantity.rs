@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use tress_geometry::{Element, HelixGroom};
 
-use crate::{Hand, measure};
+use crate::{Hand, measure, smoothed};
 
 /// A quantity of strands or of places along them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -109,7 +109,8 @@ pub enum QuantityValues {
 /// let elements = Strands::from_counts([2], vec![element(1.0), element(3.0)])?;
 /// let groom = HelixGroom::new(vec![Frame::IDENTITY], elements)?;
 /// let values = quantity(&groom, Quantity::Curvature);
-/// assert_eq!(values, QuantityValues::Joints(vec![1.0, 2.0, 3.0]));
+/// // Curvatures are averaged over a turn; this strand turns less than once.
+/// assert_eq!(values, QuantityValues::Joints(vec![2.0, 2.0, 2.0]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
@@ -141,10 +142,11 @@ fn strands(groom: &HelixGroom, quantity: Quantity) -> Vec<f64> {
     (0..groom.len()).into_par_iter().map(value).collect()
 }
 
-/// At each joint the mean of the two elements that meet there.
+/// At each joint the mean of the two elements that meet there, their curvatures averaged over a
+/// turn, so that what is shown is the coil and not its sampling.
 fn joints(groom: &HelixGroom, value: impl Fn(&Element) -> f64) -> Vec<f64> {
     let mut values = Vec::with_capacity(groom.elements().points().len() + groom.len());
-    for elements in groom.elements().iter() {
+    for elements in groom.elements().iter().map(smoothed) {
         let (Some(first), Some(last)) = (elements.first(), elements.last()) else {
             values.push(f64::NAN);
             continue;

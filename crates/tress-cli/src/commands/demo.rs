@@ -17,6 +17,8 @@ use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::report::{Report, count, short, spread};
 
+use super::fit::as_json;
+
 /// Wisps of coily hair on a patch of scalp, in centimetres; made by `cargo xtask fixtures`.
 const PATCH: &[u8] = include_bytes!("../../../../fixtures/patch.hair");
 
@@ -43,7 +45,7 @@ pub(crate) fn run(args: &DemoArgs, everywhere: &Everywhere) -> Result<Report, Fa
     report.set("output", dir);
     report.set("strands", tour.before.strands().len());
     report.set("points", tour.before.strands().points().len());
-    report.set("fit", &tour.fit);
+    report.set("fit", as_json(&tour.fit));
     report.set("summary", tour.measures);
     report.set("ruffle", tour.ruffle);
     for line in tour.report().lines().filter(|line| line.starts_with("- ")) {

@@ -1,5 +1,7 @@
 //! `tress fit`: polylines to super-helices.
 
+use serde_json::{Value, json};
+use tress::fit::FitReport;
 use tress::io::{Format, Model};
 
 use crate::args::{Everywhere, FitCommandArgs};
@@ -32,10 +34,23 @@ pub(crate) fn run(args: &FitCommandArgs, everywhere: &Everywhere) -> Result<Repo
     Ok(report)
 }
 
+/// A fit's report for programs.
+pub(crate) fn as_json(fit: &FitReport) -> Value {
+    let kept = fit.kept.iter().map(|(reason, n)| (reason.describe().to_owned(), json!(n)));
+    json!({
+        "strands": fit.strands,
+        "elements": fit.elements,
+        "rms": fit.deviation.rms,
+        "greatest": fit.deviation.greatest,
+        "length_change": fit.deviation.length_change,
+        "kept": kept.collect::<serde_json::Map<_, _>>(),
+    })
+}
+
 /// Says how near a fit is, and which strands it passed by.
 pub(crate) fn say_fit(curved: &Curved, report: &mut Report) {
     let Some(fit) = &curved.fit else { return };
-    report.set("fit", fit);
+    report.set("fit", as_json(fit));
     let deviation = fit.deviation;
     let (rms, greatest) = (short(deviation.rms), short(deviation.greatest));
     report.say("fitted", format!("{} strands", count(fit.strands)));
