@@ -3,6 +3,9 @@
 //! Strands are sorted by how many elements and controls they have, so that few lanes carry
 //! another's ballast, and handed out in parts of fixed size. Neither changes a bit of a strand's
 //! result, since lanes do not know each other.
+//!
+//! A register is done when its slowest strand is. Most strands need a few walks and a few need many,
+//! so that all strands get a few, and those that are not done share registers anew.
 
 use glam::DVec3;
 use pulp::{Arch, Simd, WithSimd};
@@ -14,7 +17,7 @@ use crate::control::Prepared;
 use crate::lanes::{Lane, LaneMat3, LaneVec3, MAX_LANES, vectors};
 use crate::levenberg::{Levenberg, Limits, Outcome};
 use crate::objective::element_weights;
-use crate::{Control, Report, SculptOptions, Stiffness};
+use crate::{Control, Report, SculptOptions, Stiffness, Stop};
 
 /// One strand to be solved.
 #[derive(Debug)]
@@ -29,6 +32,29 @@ pub(crate) struct Job<'a> {
     pub(crate) controls: &'a [Control],
     pub(crate) memory: Memory,
     pub(crate) report: Option<Report>,
+    pub(crate) unfinished: Option<Unfinished>,
+}
+
+/// What a strand takes along that was not done when its register was.
+#[derive(Debug)]
+pub(crate) struct Unfinished {
+    /// `q0`, once `pose` is no longer at rest.
+    rest: Vec<Element>,
+    slow: bool,
+}
+
+impl Job<'_> {
+    fn rest(&self) -> &[Element] {
+        match (&self.unfinished, self.rest) {
+            (Some(unfinished), _) => &unfinished.rest,
+            (None, Some(rest)) => rest,
+            (None, None) => self.pose,
+        }
+    }
+
+    fn is_at_rest(&self) -> bool {
+        self.unfinished.is_none() && self.rest.is_none()
+    }
 }
 
 /// What a strand's solution leaves for the next, with the same rest.
@@ -44,16 +70,31 @@ pub(crate) struct Memory {
 /// share out a small groom.
 const JOBS_AT_A_TIME: usize = 64;
 
+/// Walks that every strand gets at first: a few more than most need. With more, registers wait for
+/// their slowest strand; with fewer, strands are gathered again that were all but done.
+const FIRST_WALKS: usize = 12;
+
 /// Solves all jobs, whose controls have been checked; they are left in another order.
 pub(crate) fn solve_all(jobs: &mut [Job<'_>], options: &SculptOptions) {
-    jobs.sort_by_key(|job| (job.pose.len(), job.controls.len(), job.strand));
-    jobs.par_chunks_mut(JOBS_AT_A_TIME)
-        .for_each(|jobs| Arch::new().dispatch(Batch { jobs, options }));
+    let (mut left, mut walks, mut walked) = (jobs, FIRST_WALKS, 0);
+    let most = options.max_iterations.max(1);
+    while !left.is_empty() && walked < most {
+        left.sort_by_key(|job| (job.pose.len(), job.controls.len(), job.strand));
+        walks = walks.min(most - walked);
+        left.par_chunks_mut(JOBS_AT_A_TIME)
+            .for_each(|jobs| Arch::new().dispatch(Batch { jobs, options, walks }));
+        walked += walks;
+        walks *= 2;
+        left.sort_by_key(|job| job.unfinished.is_none());
+        let n_left = left.partition_point(|job| job.unfinished.is_some());
+        left = &mut left[..n_left];
+    }
 }
 
 struct Batch<'a, 'b> {
     jobs: &'a mut [Job<'b>],
     options: &'a SculptOptions,
+    walks: usize,
 }
 
 impl WithSimd for Batch<'_, '_> {
@@ -63,7 +104,7 @@ impl WithSimd for Batch<'_, '_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let limits = Limits {
             tolerance: self.options.tolerance,
-            max_iterations: self.options.max_iterations,
+            walks: self.walks,
             continuation: self.options.continuation,
         };
         let mut gather = Gather::default();
@@ -96,7 +137,7 @@ impl Gather {
     ) {
         let simd = chain.simd;
         for (lane, job) in jobs.iter().enumerate() {
-            let rest = job.rest.unwrap_or(job.pose);
+            let rest = job.rest();
             let softness = &mut self.softness[lane];
             softness.clear();
             element_weights(rest, options, |w| {
@@ -121,6 +162,11 @@ impl Gather {
                 Stiffness::Relative(stiffness) => -stiffness,
             })
         });
+        solver.slow = Lane::from_fn(simd, |i| {
+            let slow = jobs.get(i).and_then(|job| job.unfinished.as_ref()).is_some_and(|u| u.slow);
+            f64::from(u8::from(slow))
+        })
+        .is(1.0);
         solver.reference = Lane::from_fn(simd, |i| jobs.get(i).map_or(0.0, |j| j.memory.reference));
     }
 
@@ -136,10 +182,7 @@ impl Gather {
         chain.elements.clear();
         solver.y.clear();
         for j in 0..n {
-            let rest = |i: usize| {
-                let job = jobs.get(i)?;
-                job.rest.unwrap_or(job.pose).get(j)
-            };
+            let rest = |i: usize| jobs.get(i)?.rest().get(j);
             let softness = |i: usize| self.softness[i].get(j).copied().unwrap_or(DVec3::ZERO);
             chain.elements.push(LaneElement {
                 rest: vectors(simd, |i| rest(i).map_or(DVec3::ZERO, |e| e.curvature)),
@@ -148,7 +191,7 @@ impl Gather {
             });
             solver.y.push(vectors(simd, |i| {
                 let Some((job, at_rest)) = jobs.get(i).zip(rest(i)) else { return DVec3::ZERO };
-                if job.rest.is_none() {
+                if job.is_at_rest() {
                     return DVec3::ZERO;
                 }
                 let change = job.pose[j].curvature - at_rest.curvature;
@@ -210,6 +253,32 @@ impl Gather {
         solver: &Levenberg<S>,
         outcomes: &[Outcome; MAX_LANES],
     ) {
+        let positions: Vec<_> = solver.positions.iter().map(|p| p.to_array()).collect();
+        for (i, job) in jobs.iter_mut().enumerate() {
+            let Outcome { start, end, iterations, stop, slow, gradient, reference, c } =
+                outcomes[i];
+            let Prepared { controls, asked, unreachable, .. } = &self.prepared[i];
+            let off = controls.iter().zip(asked).zip(&positions);
+            let anchor_distance = off
+                .filter(|((control, _), _)| 0.0 < control.weight)
+                .fold(0.0, |worst, ((_, asked), p)| f64::max(worst, asked.distance(p[i])));
+            // A strand that comes again started long before.
+            let before = job.report.filter(|_| job.unfinished.is_some());
+            job.report = Some(Report {
+                start: before.map_or(start, |before| before.start),
+                end,
+                iterations: iterations + before.map_or(0, |before| before.iterations),
+                stop,
+                gradient: if reference == 0.0 { 0.0 } else { gradient / reference },
+                anchor_distance,
+                unreachable: u32::try_from(*unreachable).unwrap_or(u32::MAX),
+            });
+            job.memory = Memory { c: Some(c), reference };
+            job.unfinished = (stop == Stop::MaxIterations).then(|| {
+                let rest = job.unfinished.take().map(|before| before.rest);
+                Unfinished { rest: rest.unwrap_or_else(|| job.rest().to_vec()), slow }
+            });
+        }
         for (j, (element, &y)) in chain.elements.iter().zip(&solver.y).enumerate() {
             let q: LaneVec3<S> = element.rest + element.softness.scale(y);
             let q = q.to_array();
@@ -218,25 +287,6 @@ impl Gather {
                     element.curvature = q;
                 }
             }
-        }
-        let positions: Vec<_> = solver.positions.iter().map(|p| p.to_array()).collect();
-        for (i, job) in jobs.iter_mut().enumerate() {
-            let Outcome { start, end, iterations, stop, gradient, reference, c } = outcomes[i];
-            let Prepared { controls, asked, unreachable, .. } = &self.prepared[i];
-            let off = controls.iter().zip(asked).zip(&positions);
-            let anchor_distance = off
-                .filter(|((control, _), _)| 0.0 < control.weight)
-                .fold(0.0, |worst, ((_, asked), p)| f64::max(worst, asked.distance(p[i])));
-            job.report = Some(Report {
-                start,
-                end,
-                iterations,
-                stop,
-                gradient: if reference == 0.0 { 0.0 } else { gradient / reference },
-                anchor_distance,
-                unreachable: u32::try_from(*unreachable).unwrap_or(u32::MAX),
-            });
-            job.memory = Memory { c: Some(c), reference };
         }
     }
 }

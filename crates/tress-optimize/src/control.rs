@@ -96,8 +96,8 @@ const TIP_SLACK: f64 = 1e-9;
 
 /// An anchor out of reach is drawn back to this part of the reach: at the reach itself the strand
 /// would have to be straight to the last bit, and no derivative moves a straight strand's tip
-/// along itself.
-const REACH: f64 = 1.0 - 1e-6;
+/// along itself. Nearer to 1 takes more steps, farther from it leaves a wave that is seen.
+const REACH: f64 = 0.999;
 
 /// Controls of one strand, checked, in the order of their arc lengths, relative to the root.
 #[derive(Clone, Debug, Default)]

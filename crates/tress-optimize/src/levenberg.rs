@@ -25,7 +25,7 @@ use crate::{Energy, Stop};
 /// Anchors are moved to their places in no more steps than this.
 const MAX_STAGES: f64 = 64.0;
 
-/// Least `h`, in parts of the mean diagonal of `J J^T`: what rounding makes of a singular `J J^T`
+/// Least `h`, in parts of the trace of `J J^T`: what rounding makes of a singular `J J^T`
 /// stays below it, and a strand with `c = 0` is led by it.
 const LEAST_DAMPING: f64 = 1e-12;
 
@@ -35,6 +35,14 @@ const FIRST_DAMPING: f64 = 1e-3;
 /// Steps that fail one after the other before a strand gives up: by then the step has been
 /// quartered to a ten-millionth of itself.
 const MAX_FAILURES: f64 = 12.0;
+
+/// After this many failures the direction is given up: the next step is Levenberg-Marquardt's,
+/// with all the damping that the failures brought.
+const TURN_AFTER: f64 = 5.0;
+
+/// A gradient no greater than what this part of the strand's extent pulls, were it the residual, is
+/// nothing: rounding makes as much.
+const NOTHING: f64 = 1e-13;
 
 /// A rise of the energy by this part of it is rounding, not a failure; with 0, strands that are
 /// all but done would be held up by it.
@@ -55,7 +63,8 @@ const BALANCED: f64 = 1e-3;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
     pub(crate) tolerance: f64,
-    pub(crate) max_iterations: usize,
+    /// Walks at most, at least one.
+    pub(crate) walks: usize,
     pub(crate) continuation: f64,
 }
 
@@ -66,6 +75,7 @@ pub(crate) struct Outcome {
     pub(crate) end: Energy,
     pub(crate) iterations: u32,
     pub(crate) stop: Stop,
+    pub(crate) slow: bool,
     /// Length of the gradient at the end, and what it was measured by.
     pub(crate) gradient: f64,
     pub(crate) reference: f64,
@@ -103,8 +113,8 @@ pub(crate) struct Levenberg<S: Simd> {
     iterations: Lane<S>,
     gradient: Lane<S>,
     active: Mask<S>,
-    /// Where the gradient falls too slowly for what the steps leave out.
-    slow: Mask<S>,
+    /// Where the gradient falls too slowly for what the steps leave out; in and out.
+    pub(crate) slow: Mask<S>,
     converged: Mask<S>,
     balanced: Mask<S>,
 }
@@ -151,7 +161,7 @@ impl<S: Simd> Levenberg<S> {
         let one = Lane::splat(simd, 1.0);
         self.reset(chain, used);
         let mut start = [Energy::default(); MAX_LANES];
-        for iteration in 0..limits.max_iterations.max(1) {
+        for iteration in 0..limits.walks.max(1) {
             for ((trial, &y), &step) in self.trial.iter_mut().zip(&self.y).zip(&self.step) {
                 *trial = y + LaneVec3::keep(self.active, step);
             }
@@ -186,7 +196,6 @@ impl<S: Simd> Levenberg<S> {
         self.active = Lane::from_fn(simd, |i| if i < used { 1.0 } else { 0.0 }).is(1.0);
         self.converged = zero.below(zero);
         self.balanced = self.converged;
-        self.slow = self.converged;
     }
 
     /// After the first walk: the stiffness, how the anchors will move, and where it all starts.
@@ -242,21 +251,23 @@ impl<S: Simd> Levenberg<S> {
     fn advance(&mut self, chain: &Chain<S>, better: Mask<S>, limits: &Limits) {
         let simd = chain.simd;
         let (zero, one) = (Lane::splat(simd, 0.0), Lane::splat(simd, 1.0));
-        let scale = self.normal.mean_diagonal();
+        let scale = self.normal.trace();
         let at_once = better.and(self.failures.is(0.0));
         let grown = (self.damping * 4.0).max(scale * FIRST_DAMPING);
         self.damping = at_once.select(self.damping * 0.25, better.select(self.damping, grown));
+        let turned = self.failures.is(TURN_AFTER);
         self.failures = better.select(zero, self.failures + one);
-        self.way = better.select((self.way + self.stride).min(one), self.way);
+        self.way = better.and(turned.not()).select((self.way + self.stride).min(one), self.way);
         self.set_residuals(self.way);
         let anchors = self.normal.square();
         self.energy = better.select(anchors + self.c * self.square, self.energy);
         let (gradient, pull) = self.normal.gradients(chain, self.c, self.square);
         let (arrived, failed) = (self.way.is(1.0).and(better), better.not());
         let slow = (self.gradient * SLOW).below(gradient).and(arrived);
-        self.slow = self.slow.or(slow).or(failed);
+        self.slow = self.slow.or(slow.and(turned.not())).or(failed);
         self.gradient = better.select(gradient, self.gradient);
-        let small = gradient.at_most(self.reference * limits.tolerance);
+        let nothing = chain.extent * scale.sqrt() * NOTHING;
+        let small = gradient.at_most((self.reference * limits.tolerance).max(nothing));
         let done = small.and(self.way.is(1.0)).and(better);
         self.converged = self.converged.or(done);
         let away = (chain.extent * AWAY).below(anchors.sqrt());
@@ -270,12 +281,16 @@ impl<S: Simd> Levenberg<S> {
     #[inline(always)]
     fn plan(&mut self, chain: &Chain<S>, better: Mask<S>) {
         let quarter = Lane::splat(chain.simd, 0.25);
-        let least = self.normal.mean_diagonal() * LEAST_DAMPING;
+        let least = self.normal.trace() * LEAST_DAMPING;
         let h = (self.c + self.damping).max(least);
         let (step, y) = (&mut self.step, &self.y);
         let fresh = better.and(self.active);
+        // A step of nothing is taken, and the walk is back where the next one can be planned.
+        let turn = self.failures.is(TURN_AFTER);
+        let shorter = turn.select(Lane::splat(chain.simd, 0.0), quarter);
+        self.slow = self.slow.and(turn.not());
         for step in step.iter_mut() {
-            *step = *step * quarter;
+            *step = *step * shorter;
         }
         let mut left = fresh;
         let slow = fresh.and(self.slow);
@@ -307,7 +322,7 @@ impl<S: Simd> Levenberg<S> {
         let (converged, balanced) = (converged.to_array(), balanced.to_array());
         let (iterations, gradient) = (self.iterations.to_array(), self.gradient.to_array());
         let (active, reference) = (self.active.keep(one).to_array(), self.reference.to_array());
-        let c = self.c.to_array();
+        let (c, slow) = (self.c.to_array(), self.slow.keep(one).to_array());
         std::array::from_fn(|i| Outcome {
             start: start[i],
             end: Energy { anchors: anchors[i], bending: bending[i] },
@@ -318,6 +333,7 @@ impl<S: Simd> Levenberg<S> {
                 (false, _, true) => Stop::MaxIterations,
                 (false, _, false) => Stop::NoDescent,
             },
+            slow: slow[i] == 1.0,
             gradient: gradient[i],
             reference: reference[i],
             c: c[i],

@@ -171,13 +171,7 @@ impl<S: Simd> Beyond<S> {
 impl<S: Simd> Stage<S> {
     /// A control on the element itself, which moves with `m + b x S + P u`.
     #[inline(always)]
-    fn hold(
-        &mut self,
-        held: &LaneMat3<S>,
-        s: LaneVec3<S>,
-        rho: LaneVec3<S>,
-        weight: Lane<S>,
-    ) {
+    fn hold(&mut self, held: &LaneMat3<S>, s: LaneVec3<S>, rho: LaneVec3<S>, weight: Lane<S>) {
         let transposed = held.transposed();
         self.own = self.own.plus(&held.transposed_times(held).times_lane(weight));
         self.by_move = self.by_move.plus(&transposed.times_lane(weight));

@@ -105,15 +105,15 @@ impl<S: Simd> Normal<S> {
         sum
     }
 
-    /// Mean of the diagonal of `J J^T`, before it is factorised.
+    /// Trace of `J J^T`, before it is factorised.
     #[inline(always)]
-    pub(crate) fn mean_diagonal(&self) -> Lane<S> {
+    pub(crate) fn trace(&self) -> Lane<S> {
         let n = self.rho.len();
         let mut sum = self.matrix[0];
         for i in 1..n {
             sum += self.matrix[i * n + i];
         }
-        sum * (1.0 / n as f64)
+        sum
     }
 
     /// Solves `(J J^T + h I) rho = r - (c/h) J y` for the loads.

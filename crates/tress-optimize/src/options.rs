@@ -87,7 +87,7 @@ impl Default for Adam {
 pub struct SculptOptions {
     /// What bending costs. Default `Relative(1e-4)`: anchors are met to a ten-thousandth.
     pub stiffness: Stiffness,
-    /// How dear a change of each of `k0`, `k1`, `k2` is. Default `(0.03, 1, 1)`: hair twists before
+    /// How dear a change of each of `k0`, `k1`, `k2` is. Default `(0.1, 1, 1)`: hair twists before
     /// it bends, see the droop test in the documentation; `(1, 1, 1)` is [CSE 15].
     pub weights: DVec3,
     /// How dear a change at the tip is, in parts of one at the root, geometrically in between.
@@ -109,7 +109,7 @@ impl Default for SculptOptions {
     fn default() -> Self {
         Self {
             stiffness: Stiffness::Relative(1e-4),
-            weights: DVec3::new(0.03, 1.0, 1.0),
+            weights: DVec3::new(0.1, 1.0, 1.0),
             tip_weight: 0.15,
             solver: Solver::default(),
             tolerance: 1e-6,

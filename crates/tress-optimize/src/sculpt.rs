@@ -108,6 +108,7 @@ pub fn solve(
                 controls,
                 memory,
                 report: None,
+                unfinished: None,
             };
             let mut jobs = [job];
             if !controls.is_empty() {
@@ -158,6 +159,7 @@ pub fn sculpt(
         controls: controls.strand(strand),
         memory: Memory::default(),
         report: None,
+        unfinished: None,
     });
     let mut jobs: Vec<_> = jobs.collect();
     run(&mut jobs, options);
@@ -218,7 +220,16 @@ impl Sculptor {
                 continue;
             }
             let (controls, memory) = (controls.strand(strand), self.memories[strand]);
-            jobs.push(Job { strand, root, rest: Some(rest), pose, controls, memory, report: None });
+            jobs.push(Job {
+                strand,
+                root,
+                rest: Some(rest),
+                pose,
+                controls,
+                memory,
+                report: None,
+                unfinished: None,
+            });
         }
         run(&mut jobs, &self.options);
         let mut sculpted = Sculpted::untouched(&fates);

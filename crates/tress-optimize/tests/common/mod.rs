@@ -27,17 +27,18 @@ pub(crate) fn coil(seed: u64, n_elements: usize) -> (Frame, Vec<Element>) {
 }
 
 /// Anchors for `m` evenly spaced points, each moved by up to `far` of the strand's length but
-/// within 0.9 of its reach.
+/// no farther from the one before than 0.9 of the arc between them.
 pub(crate) fn targets(strand: &SuperHelix<'_>, m: usize, far: f64, seed: u64) -> Vec<Control> {
     let mut rng = Pcg64Mcg::seed_from_u64(seed);
     let length = strand.length();
     let shift = DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0))) * far * length;
+    let mut before = strand.root.position;
     let control = |k: usize| {
         let arc_length = length * k as f64 / m as f64;
         let part = k as f64 / m as f64;
-        let to = strand.position_at(arc_length) + shift * part * part - strand.root.position;
-        let to = to.clamp_length_max(0.9 * arc_length);
-        Control::new(arc_length, strand.root.position + to)
+        let to = strand.position_at(arc_length) + shift * part * part - before;
+        before += to.clamp_length_max(0.9 * length / m as f64);
+        Control::new(arc_length, before)
     };
     (1..=m).map(control).collect()
 }
