@@ -2,7 +2,7 @@
 //!
 //! Within a square of the picture the pieces of hair are taken from front to back. A pixel keeps
 //! the colour so far and the share `T` of it that is still free; a fragment of coverage `a` and
-//! colour `c` adds `T a c` and leaves `T (1 - a)`; where nothing is free, the rest is not looked at.
+//! colour `c` adds `T a c` and leaves `T (1 - a)`; where nothing is free, the rest is not drawn.
 
 use glam::Vec3;
 use image::RgbImage;

@@ -186,7 +186,8 @@ impl Segment {
     }
 
     fn pieces(&self) -> u32 {
-        // The greatest distance between curve and chord is below |m0 - m1| / 8 + |m0 + m1 - 2 c| / 20.
+        // The curve strays from its chord `c` by less than
+        // `|m0 - m1| / 8 + |m0 + m1 - 2 c| / 20`.
         let [a, b] = self.tangents;
         let c = self.ends[1] - self.ends[0];
         let away = (a - b).length() / 8.0 + (a + b - 2.0 * c).length() / 20.0;

@@ -27,13 +27,13 @@ impl Stage {
     /// For natural hair.
     pub(crate) fn natural(background: Vec3) -> Self {
         let material =
-            Material { roughness: 0.38, surface: 5.0, inside: 1.3, scattered: 1.0, depth: 0.45 };
+            Material { roughness: 0.38, surface: 4.2, inside: 1.3, scattered: 1.0, depth: 0.45 };
         Self {
             lights: [
-                Light { towards: KEY.normalize(), intensity: 2.4 * Vec3::new(1.0, 0.95, 0.88) },
+                Light { towards: KEY.normalize(), intensity: 2.5 * Vec3::new(1.0, 0.94, 0.85) },
                 Light { towards: RIM.normalize(), intensity: 1.0 * Vec3::new(0.9, 0.95, 1.0) },
             ],
-            sky: 0.9 * Vec3::new(0.97, 0.99, 1.0),
+            sky: 1.25 * Vec3::new(0.97, 0.99, 1.0),
             material,
             background,
         }

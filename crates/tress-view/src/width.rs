@@ -55,8 +55,8 @@ pub enum StrandWidth {
 ///     let points = (0..n as u32).flat_map(strand).collect();
 ///     Strands::from_counts(vec![2; n], points).map(Groom::new)
 /// };
-/// let (few, many) = (sensible_width(&hair(200)?), sensible_width(&hair(2000)?));
-/// assert!((few / many - 10.0).abs() < 1e-9);
+/// let (few, many) = (sensible_width(&hair(2000)?), sensible_width(&hair(8000)?));
+/// assert!((few / many - 4.0).abs() < 1e-9);
 /// # Ok::<(), tress_geometry::OffsetsError>(())
 /// ```
 #[must_use]

@@ -32,8 +32,8 @@ fn no_hair_and_broken_hair_give_a_grid_of_nothing() {
         let strands = Strands::from_counts([vertices.len()], vertices).expect("they match");
         let grid = Grid::of_hair(&strands, 100);
         assert!(grid.values.iter().all(|&sigma| sigma == 0.0));
-        assert_eq!(grid.optical_depth(Vec3::X).at(Vec3::NEG_ONE), 0.0);
-        assert_eq!(grid.visibility(&[(Vec3::Y, 1.0)]).at(Vec3::ONE), 1.0);
+        assert!(grid.optical_depth(Vec3::X).at(Vec3::NEG_ONE).abs() < 1e-6);
+        assert!((grid.visibility(&[(Vec3::Y, 1.0)]).at(Vec3::ONE) - 1.0).abs() < 1e-6);
     }
 }
 
