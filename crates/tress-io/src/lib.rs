@@ -1,7 +1,7 @@
 //! Grooms in and out of the files that artists use.
 //!
-//! [`read`] and [`write`] choose the format by the file's extension; each format is a module whose
-//! reader takes bytes and whose writer takes a stream.
+//! [`read()`] and [`write()`] choose the format by the file's extension; each format is a module
+//! whose reader takes bytes and whose writer takes a stream.
 //!
 //! | extension | module | what a file holds beside positions |
 //! |---|---|---|
