@@ -172,7 +172,7 @@ pub enum ReadError {
     ///
     /// ```
     /// let error = tress_io::read("hair.docx").unwrap_err();
-    /// assert!(error.to_string().starts_with("hair.docx: unknown extension .docx, expected one of"));
+    /// assert!(error.to_string().starts_with("hair.docx: unknown extension .docx, expected"));
     /// ```
     #[error(transparent)]
     Format(#[from] UnknownExtension),

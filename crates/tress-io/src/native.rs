@@ -11,7 +11,7 @@
 //! | `root_positions` | strands x 3 | |
 //! | `root_frames` | strands x 3 x 3 | one row each for `t`, `u` and `v` |
 //! | `strand/NAME` | strands, or strands x components | an attribute of strands |
-//! | `joint/NAME` | joints, or joints x components | an attribute of joints, one more a strand than elements |
+//! | `joint/NAME` | joints, or joints x components | of joints, one more than elements a strand |
 //! | `kept/strands` | kept | which strands are kept as polylines |
 //! | `kept/offsets` | kept + 1 | where their points begin |
 //! | `kept/positions` | kept points x 3 | |

@@ -19,8 +19,8 @@ pub(crate) use array::{Array, Numbers, write_header};
 ///
 /// # Errors
 ///
-/// If the bytes are no array of floating-point numbers, if it is not strands x points x 3, or if its
-/// shape does not match the size of the file.
+/// If the bytes are no array of floating-point numbers, if it is not strands x points x 3, or if
+/// its shape does not match the size of the file.
 pub fn read(bytes: &[u8]) -> Result<Groom, ParseError> {
     let array = Array::read(bytes)?;
     let &[strands, points, 3] = array.shape.as_slice() else {

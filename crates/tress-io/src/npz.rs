@@ -11,8 +11,8 @@
 //!
 //! An array of another name is an attribute too when its first axis is the number of strands, or of
 //! all points, or its first two are strands and points; other arrays, which say nothing of strands,
-//! are passed over. Whole numbers with one component stay whole. Written are `offsets` and positions
-//! with two axes, uncompressed, so that nothing is lost.
+//! are passed over. Whole numbers with one component stay whole. Written are `offsets` and
+//! positions with two axes, uncompressed, so that nothing is lost.
 
 mod write;
 

@@ -185,8 +185,8 @@ const PASSED_OVER: [&[u8]; 34] = [
     b"bsp",
 ];
 
-/// Writes positions: for each strand its vertices, then its `l` line, or `p` line if it has a single
-/// point.
+/// Writes positions: for each strand its vertices, then its `l` line, or its `p` line if it has a
+/// single point.
 ///
 /// # Errors
 ///

@@ -9,8 +9,8 @@
 //! * neither, nor faces, but colours (NeuralHaircut): every 100 vertices are a strand, and have the
 //!   same colour.
 //!
-//! `red green blue` become the attribute `color` of points, `alpha` becomes `opacity`; whole numbers
-//! are 255ths. Everything else is passed over. Written are hairutil's elements, binary and
+//! `red green blue` become the attribute `color` of points, `alpha` becomes `opacity`; bytes are
+//! 255ths. Everything else is passed over. Written are hairutil's elements, binary and
 //! little-endian, with `f32` coordinates.
 
 mod header;

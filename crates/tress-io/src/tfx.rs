@@ -11,8 +11,8 @@
 //! `inverse_mass` of points. Thickness and texture coordinates of strands become `width` and `uv`,
 //! colours `color` and `opacity`, texture coordinates of points `vertex_uv`.
 //!
-//! A text whose header scales, turns or moves the hair is an error: the programs that read it do not
-//! agree on what comes first.
+//! A text whose header scales, turns or moves the hair is an error: in which order it does so is
+//! not said.
 
 mod binary;
 mod text;

@@ -1,5 +1,5 @@
-//! Files cut at every byte and with bytes overwritten: an error or a groom, never a panic, and never
-//! more memory than the size of the file accounts for.
+//! Files cut at every byte and with bytes overwritten: an error or a groom, never a panic, and
+//! never more memory than the size of the file accounts for.
 
 mod common;
 
@@ -14,8 +14,8 @@ use common::{FORMATS, decode, encode, full_groom};
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// What the tests of this file may hold at once, together: each file is some hundred bytes long, and
-/// a count that is believed without a check asks for a thousand times this.
+/// What the tests of this file may hold at once, together: each file is some hundred bytes long,
+/// and a count that is believed without a check asks for a thousand times this.
 const MEMORY_LIMIT: usize = 64 << 20;
 /// Files with bytes overwritten, for each format.
 const CASES: usize = 4_000;
