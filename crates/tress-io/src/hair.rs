@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | 0 | `char[4]` | `HAIR` |
 //! | 4, 8 | `u32` | strands, points |
-//! | 12 | `u32` | arrays that follow: bit 0 segments, 1 points, 2 thickness, 3 transparency, 4 colours |
+//! | 12 | `u32` | arrays: bit 0 segments, 1 points, 2 thickness, 3 transparency, 4 colours |
 //! | 16 | `u32` | segments a strand where there is no array of them |
 //! | 20, 24, 28 | `f32`, `f32`, `f32[3]` | thickness, transparency, colour without an array |
 //! | 40 | `char[88]` | a note |
