@@ -1,8 +1,11 @@
 //! The measurements, one file a topic.
 
 mod formats;
+mod pictures;
+mod sculpting;
 
 use std::path::PathBuf;
+use std::time::Instant;
 
 use crate::Outcome;
 use crate::metric::{Figures, say};
@@ -14,7 +17,11 @@ struct Suite {
     run: fn(&mut Figures) -> Outcome,
 }
 
-const SUITES: [Suite; 1] = [Suite { names: formats::NAMES, run: formats::run }];
+const SUITES: [Suite; 3] = [
+    Suite { names: formats::NAMES, run: formats::run },
+    Suite { names: pictures::NAMES, run: pictures::run },
+    Suite { names: sculpting::NAMES, run: sculpting::run },
+];
 
 /// Runs the suites that have a figure whose name begins with one of the arguments, or all.
 pub(crate) fn run(args: &[String]) -> Outcome {
@@ -44,4 +51,18 @@ pub(crate) fn run(args: &[String]) -> Outcome {
             Ok(())
         }
     }
+}
+
+/// Seconds of the fastest of so many runs.
+fn best_of<T, E>(times: usize, mut run: impl FnMut() -> Result<T, E>) -> Outcome<f64>
+where
+    Box<dyn std::error::Error>: From<E>,
+{
+    let mut best = f64::INFINITY;
+    for _ in 0..times {
+        let started = Instant::now();
+        std::hint::black_box(run()?);
+        best = best.min(started.elapsed().as_secs_f64());
+    }
+    Ok(best)
 }

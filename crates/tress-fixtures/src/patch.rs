@@ -38,7 +38,7 @@ pub struct PatchOptions {
     pub head_radius: f64,
     /// How far the patch reaches from its middle, as an angle seen from the middle of the head.
     pub patch_angle: f64,
-    /// Hair diameter.
+    /// Hair diameter. The default is three times that of hair: a strand stands for a few.
     pub width: f64,
 }
 
@@ -46,14 +46,14 @@ impl Default for PatchOptions {
     fn default() -> Self {
         Self {
             wisps: 30,
-            strands_per_wisp: 14,
+            strands_per_wisp: 22,
             radius: 0.55,
             pitch: 0.52,
             length: 11.0,
             points_per_turn: 5.6,
             head_radius: 9.0,
             patch_angle: 0.62,
-            width: 0.012,
+            width: 0.03,
         }
     }
 }

@@ -1,12 +1,12 @@
 //! Reading and writing files.
 
-use std::time::Instant;
-
 use tress::io::WriteOptions;
 
 use crate::Outcome;
 use crate::grooms;
 use crate::metric::{Bar, Figures};
+
+use super::best_of;
 
 pub(crate) const NAMES: &[&str] = &["read_obj_seconds", "read_usdc_seconds", "write_usda_seconds"];
 
@@ -31,18 +31,4 @@ pub(crate) fn run(figures: &mut Figures) -> Outcome {
     let usda = best_of(2, || tress::io::write(&target, &groom, &WriteOptions::default()))?;
     figures.add("write_usda_seconds", usda, "s", Bar::None);
     Ok(())
-}
-
-/// Seconds of the fastest of so many runs.
-pub(crate) fn best_of<T, E: std::error::Error + 'static>(
-    times: usize,
-    mut run: impl FnMut() -> Result<T, E>,
-) -> Outcome<f64> {
-    let mut best = f64::INFINITY;
-    for _ in 0..times {
-        let started = Instant::now();
-        std::hint::black_box(run()?);
-        best = best.min(started.elapsed().as_secs_f64());
-    }
-    Ok(best)
 }
