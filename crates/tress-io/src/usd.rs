@@ -133,7 +133,7 @@ pub fn read(path: &Path) -> Result<Groom, ParseError> {
 /// let mut text = Vec::new();
 /// usd::write(&Groom::new(strands), &WriteOptions::default(), &mut text)?;
 /// let text = String::from_utf8(text)?;
-/// assert!(text.contains("point3f[] points = [\n(0, 0, 0), (1, 0, 0),\n]"));
+/// assert!(text.contains("point3f[] points = [\n(0, 0, 0), (1, 0, 0),\n"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

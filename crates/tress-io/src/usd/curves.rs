@@ -132,8 +132,8 @@ fn attach(
         return Ok(());
     };
     let attribute = prim.attribute(property_name);
-    let size = attribute.get_metadata::<i32>("elementSize").ok().flatten().unwrap_or(1);
-    let column = wide_rows(column, usize::try_from(size).unwrap_or(1));
+    let size = attribute.get_metadata::<Value>("elementSize").ok().flatten();
+    let column = wide_rows(column, size.as_ref().and_then(values::count).unwrap_or(1));
     let column = indexed(column, prim, property_name)?;
     let declared = match attribute.get_metadata::<Value>("interpolation").ok().flatten() {
         Some(Value::Token(token)) => match token.as_str() {

@@ -17,6 +17,12 @@ pub(super) fn scalar(value: &Value) -> Option<f64> {
     })
 }
 
+/// How many, by a number of any type: text has no type where the value of a key stands.
+#[expect(clippy::cast_possible_truncation, reason = "the nearest count is as good")]
+pub(super) fn count(value: &Value) -> Option<usize> {
+    scalar(value).map(|number| number as usize)
+}
+
 /// Numbers of any type, one or many, as rows; `None` for what is not numbers or vectors of them.
 pub(super) fn column(value: Value) -> Option<Column> {
     fn ints<T>(values: Vec<T>) -> Column
