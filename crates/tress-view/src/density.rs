@@ -13,7 +13,9 @@
 //! own half-way to what its neighbour towards the light has, which bilinear interpolation reads off
 //! the slice before. The interpolation blurs shadows with distance, as scattering in hair does.
 
-use glam::Vec3;
+use std::ops::{Add, Mul, Sub};
+
+use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use tress_geometry::Strands;
 
@@ -22,7 +24,7 @@ use crate::num::{ceil_to_count, floor, index};
 
 /// A quantity on a grid of cubic cells, in pixel space; read between cell centres.
 #[derive(Clone, Debug)]
-pub(crate) struct Grid {
+pub(crate) struct Grid<T = f32> {
     /// Where the first cell begins.
     origin: Vec3,
     /// A cell's edge, in pixels.
@@ -30,7 +32,7 @@ pub(crate) struct Grid {
     // Invariant: at least 2 along each side.
     cells: [usize; 3],
     // Invariant: as many as cells; x runs fastest, then y.
-    values: Vec<f32>,
+    values: Vec<T>,
 }
 
 impl Grid {
@@ -79,26 +81,6 @@ impl Grid {
     fn index(&self, x: usize, y: usize, z: usize) -> usize {
         let [nx, ny, nz] = self.cells;
         x.min(nx - 1) + nx * (y.min(ny - 1) + ny * z.min(nz - 1))
-    }
-
-    /// The value at a place; outside of the grid, that of the nearest place inside.
-    pub(crate) fn at(&self, place: Vec3) -> f32 {
-        let g = (place - self.origin) / self.cell - 0.5;
-        let [(x, fx), (y, fy), (z, fz)] = [0, 1, 2].map(|axis| {
-            let last = self.cells[axis] - 2;
-            let base = index(floor(g[axis])).min(last);
-            (base, (g[axis] - base as f32).clamp(0.0, 1.0))
-        });
-        let [nx, ny, _] = self.cells;
-        let i = x + nx * (y + ny * z);
-        let v = &self.values;
-        let along_x = |i: usize| v[i] + (v[i + 1] - v[i]) * fx;
-        let along_y = |i: usize| {
-            let (a, b) = (along_x(i), along_x(i + nx));
-            a + (b - a) * fy
-        };
-        let (a, b) = (along_y(i), along_y(i + nx * ny));
-        a + (b - a) * fz
     }
 
     /// The same quantity in cells of twice the edge.
@@ -152,6 +134,13 @@ impl Grid {
         Self { values: depth, ..*self }
     }
 
+    /// Two quantities on the same cells, side by side: what is read together lies together.
+    pub(crate) fn beside(&self, other: &Self) -> Grid<Vec2> {
+        let pairs = self.values.iter().zip(&other.values);
+        let values = pairs.map(|(&a, &b)| Vec2::new(a, b)).collect();
+        Grid { origin: self.origin, cell: self.cell, cells: self.cells, values }
+    }
+
     /// The mean of `exp(-tau)` over directions with weights, where this grid is the extinction
     /// coefficient: the share of the sky that is seen from each cell.
     pub(crate) fn visibility(&self, directions: &[(Vec3, f32)]) -> Self {
@@ -166,6 +155,28 @@ impl Grid {
             }
         });
         Self { values, ..*self }
+    }
+}
+
+impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f32, Output = T>> Grid<T> {
+    /// The value at a place; outside of the grid, that of the nearest place inside.
+    pub(crate) fn at(&self, place: Vec3) -> T {
+        let g = (place - self.origin) / self.cell - 0.5;
+        let [(x, fx), (y, fy), (z, fz)] = [0, 1, 2].map(|axis| {
+            let last = self.cells[axis] - 2;
+            let base = index(floor(g[axis])).min(last);
+            (base, (g[axis] - base as f32).clamp(0.0, 1.0))
+        });
+        let [nx, ny, _] = self.cells;
+        let i = x + nx * (y + ny * z);
+        let v = &self.values;
+        let along_x = |i: usize| v[i] + (v[i + 1] - v[i]) * fx;
+        let along_y = |i: usize| {
+            let (a, b) = (along_x(i), along_x(i + nx));
+            a + (b - a) * fy
+        };
+        let (a, b) = (along_y(i), along_y(i + nx * ny));
+        a + (b - a) * fz
     }
 }
 

@@ -4,7 +4,7 @@
 //! the colour so far and the share `T` of it that is still free; a fragment of coverage `a` and
 //! colour `c` adds `T a c` and leaves `T (1 - a)`; where nothing is free, the rest is not drawn.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use image::RgbImage;
 use rayon::prelude::*;
 use tress_geometry::Strands;
@@ -33,7 +33,9 @@ pub(crate) trait Paint: Sync {
 
 /// Light that has found its way into the hair.
 struct Shadows {
-    depths: Vec<Grid>,
+    /// Optical depth from each of the two lights.
+    depths: Grid<Vec2>,
+    /// Share of the sky that is seen.
     sky: Grid,
 }
 
@@ -41,11 +43,12 @@ impl Shadows {
     fn new(strands: &Strands<Vertex>, stage: &Stage) -> Self {
         let hair = Grid::of_hair(strands, SHADOW_CELLS);
         let coarse = hair.coarser();
-        let (depths, sky) = rayon::join(
-            || stage.lights.par_iter().map(|light| hair.optical_depth(light.towards)).collect(),
+        let [key, rim] = stage.lights.map(|light| light.towards);
+        let ((key, rim), sky) = rayon::join(
+            || rayon::join(|| hair.optical_depth(key), || hair.optical_depth(rim)),
             || coarse.visibility(&sky_directions()),
         );
-        Self { depths, sky }
+        Self { depths: key.beside(&rim), sky }
     }
 }
 
@@ -105,8 +108,9 @@ fn light(vertices: &[Vertex], paint: &impl Paint, stage: &Stage, shadows: &Shado
         let (color, tilt) = paint.fibre(value);
         let fibre = Fibre { tangent: tangent(vertices, i), color, tilt };
         let mut light = color * stage.sky * shadows.sky.at(position);
-        for (source, depth) in stage.lights.iter().zip(&shadows.depths) {
-            light += scatter(&stage.material, &fibre, source, depth.at(position));
+        let depths = shadows.depths.at(position).to_array();
+        for (source, tau) in stage.lights.iter().zip(depths) {
+            light += scatter(&stage.material, &fibre, source, tau);
         }
         light
     };
@@ -141,9 +145,7 @@ impl Painter<'_> {
         let [left, top] = tiles.corner(tile);
         let mut pixels = vec![(Vec3::ZERO, 1.0_f32); (EDGE * EDGE) as usize];
         let mut open = pixels.len();
-        for i in self.by_depth(tiles.pieces(tile)) {
-            let Some(piece) = Piece::new(self.vertices, i) else { continue };
-            let (a, b) = (self.lit[i], self.lit[i + 1]);
+        for (piece, [a, b]) in self.by_depth(tiles.pieces(tile)) {
             piece.cover(left..left + edge, top..top + edge, |fragment: Fragment| {
                 let (x, y) = (fragment.x - left, fragment.y - top);
                 let (color, free) = &mut pixels[index(y * edge + x)];
@@ -164,16 +166,24 @@ impl Painter<'_> {
         Square { pixels, background: self.background }
     }
 
-    /// First vertices of pieces, the nearest piece first; equally near ones in their own order.
-    fn by_depth(&self, pieces: impl Iterator<Item = u32>) -> impl Iterator<Item = usize> {
-        let depth = |i: u32| {
-            let i = i as usize;
-            self.vertices[i].position.z + self.vertices[i + 1].position.z
-        };
-        let mut order: Vec<u64> =
-            pieces.map(|i| u64::from(ascending(depth(i))) << 32 | u64::from(i)).collect();
+    /// The pieces behind these vertices with the light of their ends, the nearest piece first;
+    /// equally near ones in their own order.
+    fn by_depth(
+        &self,
+        first: impl Iterator<Item = u32>,
+    ) -> impl Iterator<Item = (Piece, [Vec3; 2])> {
+        // Read in the order of the strands and sorted by number, because to read all over the
+        // groom in the order of depth would miss the cache at every piece.
+        let mut pieces = Vec::new();
+        let mut order: Vec<u64> = Vec::new();
+        for i in first.map(|i| i as usize) {
+            let Some(piece) = Piece::new(self.vertices, i) else { continue };
+            let depth = self.vertices[i].position.z + self.vertices[i + 1].position.z;
+            order.push(u64::from(ascending(depth)) << 32 | pieces.len() as u64);
+            pieces.push((piece, [self.lit[i], self.lit[i + 1]]));
+        }
         order.sort_unstable();
-        order.into_iter().map(|key| low_half(key) as usize)
+        order.into_iter().map(move |key| pieces[low_half(key) as usize])
     }
 }
 

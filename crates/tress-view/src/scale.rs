@@ -37,8 +37,9 @@ impl ColorMap {
         use colorgrad::preset;
         let t = if t.is_nan() { 0.0 } else { narrow(t.clamp(0.0, 1.0)) };
         let color = match self {
-            Self::Viridis => preset::viridis().at(t),
-            Self::Cividis => preset::cividis().at(t),
+            // The darkest shades are no longer seen in the shadow of other hair.
+            Self::Viridis => preset::viridis().at(0.1 + 0.9 * t),
+            Self::Cividis => preset::cividis().at(0.1 + 0.9 * t),
             // The outermost shades are near black, and hair has shadows of its own.
             Self::BlueRed => preset::rd_bu().at(0.92 - 0.84 * t),
             Self::PurpleGreen => preset::pr_gn().at(0.12 + 0.76 * t),

@@ -49,7 +49,7 @@ impl Stage {
                 Light { towards: KEY.normalize(), intensity: Vec3::splat(1.0) },
                 Light { towards: RIM.normalize(), intensity: Vec3::splat(0.3) },
             ],
-            sky: Vec3::splat(0.65),
+            sky: Vec3::splat(0.75),
             material,
             background,
         }
