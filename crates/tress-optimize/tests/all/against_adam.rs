@@ -1,8 +1,6 @@
 //! Levenberg-Marquardt against Adam as published, on seeded coils and targets.
 
-mod common;
-
-use common::{coil, targets};
+use crate::common::{coil, targets};
 use tress_geometry::SuperHelix;
 use tress_optimize::{Adam, SculptOptions, Solver, Stiffness, Stop, solve};
 

@@ -1,8 +1,6 @@
 //! What sculpting promises, on seeded strands and on bad input.
 
-mod common;
-
-use common::{coil, targets};
+use crate::common::{coil, targets};
 use glam::DVec3;
 use tress_geometry::{Attributes, Element, Frame, HelixGroom, Kept, Strands, SuperHelix};
 use tress_optimize::{
