@@ -67,6 +67,9 @@ pub(crate) enum Command {
     Sample(SampleCommandArgs),
     Ruffle(RuffleArgs),
     Blend(BlendArgs),
+    Recoil(RecoilArgs),
+    Armature(ArmatureArgs),
+    Sculpt(SculptArgs),
     Render(RenderArgs),
     Merge(MergeArgs),
 }
@@ -227,6 +230,119 @@ pub(crate) enum Space {
     Darboux,
     /// Points
     Position,
+}
+
+/// Tighter or looser, wider or narrower coils
+///
+/// Radius and frequency (turns in a length of axis) are multiplied. They cannot change alone: say
+/// what stays.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  tress recoil groom.usdc looser.usda --radius 1.5
+  tress recoil groom.usdc tighter.usda --radius 0.7 --frequency 1.4 --keep turns")]
+pub(crate) struct RecoilArgs {
+    /// The groom
+    pub(crate) input: PathBuf,
+    /// The file to write
+    pub(crate) output: PathBuf,
+    /// Factor of the coil radius
+    #[arg(long, value_name = "X", default_value_t = 1.0)]
+    pub(crate) radius: f64,
+    /// Factor of the spatial frequency
+    #[arg(long, value_name = "Y", default_value_t = 1.0)]
+    pub(crate) frequency: f64,
+    /// What stays
+    #[arg(long, value_enum, default_value_t = KeepArg::Length)]
+    pub(crate) keep: KeepArg,
+    /// How polylines are fitted
+    #[command(flatten)]
+    pub(crate) fit: FitArgs,
+    /// How many points come out
+    #[command(flatten)]
+    pub(crate) sampling: SamplingArgs,
+    /// Choices of formats
+    #[command(flatten)]
+    pub(crate) format: FormatArgs,
+}
+
+/// What stays when coils change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum KeepArg {
+    /// The arc length of every strand; turns follow
+    Length,
+    /// The turns of every strand; its length follows
+    Turns,
+    /// The line that every strand winds about; length and turns follow
+    Centerline,
+}
+
+/// Write the rest pose of a groom, to be changed and given to `tress sculpt`
+///
+/// Strands are clustered by root and tip; each cluster gets a chain of joints. Change `translate`,
+/// `rotate` (degrees) and `scale` of a joint in the file.
+#[derive(Args, Debug)]
+#[command(after_help = "Example: tress armature groom.obj pose.ron --clusters 12 --joints 3")]
+pub(crate) struct ArmatureArgs {
+    /// The groom
+    pub(crate) input: PathBuf,
+    /// The .ron file to write
+    pub(crate) output: PathBuf,
+    /// Clusters of strands
+    #[arg(long, value_name = "K", default_value_t = 8)]
+    pub(crate) clusters: usize,
+    /// Joints of a cluster, evenly along its strands, the last at the tips
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub(crate) joints: u32,
+    /// How far strands are also moved by the clusters beside their own, 0 to 1
+    #[arg(long, value_name = "B", default_value_t = 0.0)]
+    pub(crate) blend: f64,
+    /// How polylines are fitted
+    #[command(flatten)]
+    pub(crate) fit: FitArgs,
+}
+
+/// Move strands to where a pose puts them, changing their curvatures as little as possible
+///
+/// Lengths of strands do not change.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  tress armature groom.obj pose.ron
+  tress sculpt groom.obj posed.obj --pose pose.ron --stiffness 0.001")]
+pub(crate) struct SculptArgs {
+    /// The groom
+    pub(crate) input: PathBuf,
+    /// The file to write
+    pub(crate) output: PathBuf,
+    /// The pose, as `tress armature` writes it
+    #[arg(long, value_name = "POSE.ron")]
+    pub(crate) pose: PathBuf,
+    /// What bending costs, whatever the unit: 0 meets every anchor, 1 hardly bends
+    #[arg(long, value_name = "C", conflicts_with = "c")]
+    pub(crate) stiffness: Option<f64>,
+    /// What bending costs as the published c, in the fourth power of the groom's unit
+    #[arg(long, value_name = "C")]
+    pub(crate) c: Option<f64>,
+    /// How the least energy is found
+    #[arg(long, value_enum, default_value_t = SolverArg::Lm)]
+    pub(crate) solver: SolverArg,
+    /// How polylines are fitted
+    #[command(flatten)]
+    pub(crate) fit: FitArgs,
+    /// How many points come out
+    #[command(flatten)]
+    pub(crate) sampling: SamplingArgs,
+    /// Choices of formats
+    #[command(flatten)]
+    pub(crate) format: FormatArgs,
+}
+
+/// How the least energy is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SolverArg {
+    /// Levenberg-Marquardt: tens of steps
+    Lm,
+    /// Adam as published: thousands of steps, for comparison
+    Adam,
 }
 
 /// Draw a picture of a groom

@@ -1,14 +1,17 @@
 //! One file a command.
 
+mod armature;
 mod blend;
 mod convert;
 mod demo;
 mod fit;
 mod info;
 mod merge;
+mod recoil;
 mod render;
 mod ruffle;
 mod sample;
+mod sculpt;
 
 use crate::args::{Command, Everywhere};
 use crate::failure::Failure;
@@ -18,6 +21,9 @@ use crate::report::Report;
 pub(crate) fn run(command: &Command, everywhere: &Everywhere) -> Result<Report, Failure> {
     match command {
         Command::Demo(args) => demo::run(args, everywhere),
+        Command::Recoil(args) => recoil::run(args, everywhere),
+        Command::Armature(args) => armature::run(args, everywhere),
+        Command::Sculpt(args) => sculpt::run(args, everywhere),
         Command::Render(args) => render::run(args, everywhere),
         Command::Info(args) => info::run(args, everywhere),
         Command::Convert(args) => convert::run(args, everywhere),

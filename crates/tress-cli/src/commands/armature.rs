@@ -1,0 +1,51 @@
+//! `tress armature`: the rest pose of a groom.
+
+use ron::ser::PrettyConfig;
+use tress::optimize::{ArmatureOptions, Clustering, Pose, armature};
+
+use crate::args::{ArmatureArgs, Everywhere};
+use crate::failure::Failure;
+use crate::progress::Progress;
+use crate::report::{Report, count};
+use crate::source::{self, Curved};
+use crate::target;
+
+pub(crate) fn run(args: &ArmatureArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
+    if args.output.extension().is_none_or(|extension| extension != "ron") {
+        let file = args.output.display();
+        return Err(Failure::Usage(format!("{file}: poses are written as .ron")));
+    }
+    target::check_in_place(&[&args.input], &args.output, everywhere)?;
+    let progress = Progress::new(4, everywhere);
+    let model = source::read(&args.input, &progress)?;
+    let curved = Curved::new(model, &args.fit.options(), &progress)?;
+    progress.stage("clustering");
+    let n = f64::from(args.joints);
+    let clusters =
+        Clustering { count: args.clusters, seed: everywhere.seed, blend: args.blend };
+    let lengths = (1..=args.joints).map(|k| f64::from(k) / n).collect();
+    let pose = armature(&curved.helices, &ArmatureOptions { clusters, lengths })?;
+    progress.stage(format!("writing {}", args.output.display()));
+    let text = HEADER.to_owned() + &ron::ser::to_string_pretty(&pose, PrettyConfig::default())?;
+    tress::io::write_bytes(&args.output, (text + "\n").as_bytes())?;
+    Ok(said(args, &pose))
+}
+
+/// What a pose file says to whoever opens it.
+const HEADER: &str = "\
+// The rest pose of a groom. Move a joint by its `translate` (in the groom's unit), turn it by
+// `rotate` (degrees about x, y, z), stretch it by `scale`; then `tress sculpt ... --pose` this file.
+// `at` is the place along the strands, 0 at the root and 1 at the tip.
+";
+
+fn said(args: &ArmatureArgs, pose: &Pose) -> Report {
+    let mut report = Report::default();
+    let joints = pose.groups.iter().map(|group| group.joints.len()).sum();
+    report.set("input", &args.input);
+    report.set("output", &args.output);
+    report.set("clusters", pose.groups.len());
+    report.set("joints", joints);
+    let (file, clusters) = (args.output.display(), count(pose.groups.len()));
+    report.say("wrote", format!("{file} ({clusters} clusters, {} joints)", count(joints)));
+    report
+}
