@@ -58,7 +58,7 @@ pub(crate) fn legend(scale: &Scale, missing: Option<&str>, size: Size, paper: Rg
     let bottom = top + layout.bar;
     fill(&mut strip, [left, left + bar_width], [top, bottom], |t| scale.map.rgb(f64::from(t)));
 
-    let most = crate::num::index(crate::num::floor(bar_width / (4.5 * layout.line))).clamp(3, 9);
+    let most = crate::num::index(crate::num::floor(bar_width / (3.6 * layout.line))).clamp(3, 9);
     for tick in scale.ticks(most) {
         let place = narrow(scale.place(tick.value).unwrap_or(0.5));
         let x = left + place * (bar_width - 1.0);
