@@ -169,13 +169,13 @@ pub(crate) struct RuffleArgs {
     /// The file to write
     pub(crate) output: PathBuf,
     /// Chance of an element to be replaced, 0 to 1
-    #[arg(long, value_name = "P", default_value_t = 0.05)]
+    #[arg(long, value_name = "P", default_value_t = 0.05, allow_negative_numbers = true)]
     pub(crate) probability: f64,
     /// Elements at the root that stay: a number, or a share of the strand as in 33%
     #[arg(long, value_name = "N", default_value = "33%")]
     pub(crate) keep: Keep,
     /// From the groom as it is (0) to the ruffled groom (1)
-    #[arg(long, value_name = "T", default_value_t = 1.0)]
+    #[arg(long, value_name = "T", default_value_t = 1.0, allow_negative_numbers = true)]
     pub(crate) blend: f64,
     /// Who exchanges with whom: `whole`, the name of a strand attribute, or `clusters:K`
     #[arg(long, value_name = "G", default_value = "whole", value_parser = parse_grouping)]
@@ -246,10 +246,10 @@ pub(crate) struct RecoilArgs {
     /// The file to write
     pub(crate) output: PathBuf,
     /// Factor of the coil radius
-    #[arg(long, value_name = "X", default_value_t = 1.0)]
+    #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]
     pub(crate) radius: f64,
     /// Factor of the spatial frequency
-    #[arg(long, value_name = "Y", default_value_t = 1.0)]
+    #[arg(long, value_name = "Y", default_value_t = 1.0, allow_negative_numbers = true)]
     pub(crate) frequency: f64,
     /// What stays
     #[arg(long, value_enum, default_value_t = KeepArg::Length)]
@@ -317,10 +317,10 @@ pub(crate) struct SculptArgs {
     #[arg(long, value_name = "POSE.ron")]
     pub(crate) pose: PathBuf,
     /// What bending costs, whatever the unit: 0 meets every anchor, 1 hardly bends
-    #[arg(long, value_name = "C", conflicts_with = "c")]
+    #[arg(long, value_name = "C", conflicts_with = "c", allow_negative_numbers = true)]
     pub(crate) stiffness: Option<f64>,
     /// What bending costs as the published c, in the fourth power of the groom's unit
-    #[arg(long, value_name = "C")]
+    #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub(crate) c: Option<f64>,
     /// How the least energy is found
     #[arg(long, value_enum, default_value_t = SolverArg::Lm)]
@@ -406,7 +406,7 @@ pub(crate) struct FitArgs {
     pub(crate) elements: Option<usize>,
     /// As few elements as keep every point this near: a length, or a share of the coil radius as
     /// in 2%
-    #[arg(long, value_name = "D", value_parser = parse_tolerance)]
+    #[arg(long, value_name = "D", value_parser = parse_tolerance, allow_negative_numbers = true)]
     pub(crate) tolerance: Option<Tolerance>,
 }
 
@@ -429,7 +429,7 @@ pub(crate) struct SamplingArgs {
     #[arg(long, value_name = "N", conflicts_with = "spacing")]
     pub(crate) points: Option<usize>,
     /// Distance of points along the strand, in the groom's unit
-    #[arg(long, value_name = "D")]
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
     pub(crate) spacing: Option<f64>,
 }
 

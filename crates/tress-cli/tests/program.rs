@@ -171,6 +171,8 @@ fn mistakes_are_told_in_one_line_and_leave_files_alone() {
     fs::create_dir(bench.path("folder.obj")).expect("a folder");
     fs::write(bench.path("broken.data"), [9, 0, 0, 0, 1]).expect("a file");
     fs::write(bench.path("old.hair"), "old").expect("a file");
+    fs::write(bench.path("broken.ron"), "(joints: [])").expect("a file");
+    fs::write(bench.path("empty.ron"), "()").expect("a file");
     for (line, status, word) in [
         ("info nowhere.obj", 1, "nowhere.obj: no such file"),
         ("info folder.obj", 1, "is a directory"),
@@ -187,6 +189,12 @@ fn mistakes_are_told_in_one_line_and_leave_files_alone() {
         ("fit groom.obj out.obj", 2, ".tress"),
         ("fit groom.obj out.tress --elements 0", 1, "0 elements"),
         ("fit groom.obj out.tress --tolerance -1", 2, "tolerance"),
+        ("recoil groom.obj out.obj --radius -1", 1, "above 0"),
+        ("armature groom.obj out.obj", 2, ".ron"),
+        ("armature groom.obj out.ron --clusters 0", 1, "0 clusters"),
+        ("sculpt groom.obj out.obj --pose nowhere.ron", 1, "nowhere.ron"),
+        ("sculpt groom.obj out.obj --pose broken.ron", 1, "broken.ron: line 1, column"),
+        ("sculpt groom.obj out.obj --pose empty.ron --stiffness -1", 1, "-1"),
         ("sample groom.obj out.obj --points 1", 1, "at least 2"),
         ("sample groom.obj out.obj --points 9 --spacing 1", 2, "cannot be used with"),
         ("info groom.obj --threads 0", 2, "1 to 1024"),
@@ -239,6 +247,9 @@ fn quiet_says_nothing_and_json_says_one_object() {
         "ruffle groom.obj c.obj",
         "blend groom.obj c.obj d.obj",
         "merge a.hair a.hair e.hair",
+        "recoil groom.obj f.obj --radius 1.2",
+        "armature groom.obj g.ron --clusters 2",
+        "sculpt groom.obj h.obj --pose g.ron",
     ] {
         let text = bench.done(&format!("{command} --json"));
         let json: Value = serde_json::from_str(&text).expect("one JSON value");
@@ -258,4 +269,46 @@ fn half_way_between_a_groom_and_itself_is_itself() {
     }
     bench.done("blend groom.obj groom.obj same.obj --space position");
     assert_eq!(bench.groom("same.obj"), bench.groom("groom.obj"));
+}
+
+#[test]
+fn a_pose_moves_the_tips_of_its_cluster_and_no_length() {
+    let bench = Bench::new();
+    bench.done("fit groom.obj groom.tress --elements 60");
+    bench.done("armature groom.tress pose.ron --clusters 1 --joints 1");
+    let rest = fs::read_to_string(bench.path("pose.ron")).expect("the pose was written");
+    let moved = rest.replacen("translate: (0.0, 0.0, 0.0)", "translate: (0.0, -1.0, 0.0)", 1);
+    assert_ne!(rest, moved, "a joint can be moved by its translate:\n{rest}");
+    fs::write(bench.path("moved.ron"), moved).expect("a file");
+    bench.done("sculpt groom.tress down.tress --pose moved.ron");
+    let json = bench.done("sculpt groom.tress down.tress --pose moved.ron --json");
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(json["sculpt"]["moved"], 20);
+    let helices = |name: &str| match tress::io::read(bench.path(name)).expect("a file") {
+        Model::Helices(helices) => helices,
+        Model::Polylines(_) => panic!("{name} holds polylines"),
+    };
+    let (before, after) = (helices("groom.tress"), helices("down.tress"));
+    for (a, b) in before.iter().zip(after.iter()) {
+        let fall = b.tip().position - a.tip().position;
+        assert!(fall.distance(DVec3::NEG_Y) < 0.05, "a tip moved by {fall}");
+        assert!((a.length() - b.length()).abs() < 1e-12 * a.length());
+    }
+}
+
+#[test]
+fn wider_coils_keep_what_they_are_told_to() {
+    let bench = Bench::new();
+    bench.done("fit groom.obj groom.tress --elements 100");
+    for (keep, kept) in [("length", "length"), ("turns", "turns")] {
+        let line = format!("recoil groom.tress wide.tress --radius 1.3 --keep {keep} --json");
+        let json: Value = serde_json::from_str(&bench.done(&line)).expect("JSON");
+        let median = |when: &str, of: &str| json[when][of]["median"].as_f64().expect("a number");
+        let ratio = median("after", "coil_radius") / median("before", "coil_radius");
+        assert!((1.2..1.4).contains(&ratio), "radius x {ratio}");
+        let ratio = median("after", kept) / median("before", kept);
+        assert!((ratio - 1.0).abs() < 0.02, "{kept} x {ratio}");
+    }
+    bench.done("recoil groom.tress wide.obj --radius 1.3 --keep centerline");
+    assert_eq!(bench.groom("wide.obj").strands().len(), 20);
 }

@@ -21,8 +21,7 @@ pub(crate) fn run(args: &ArmatureArgs, everywhere: &Everywhere) -> Result<Report
     let curved = Curved::new(model, &args.fit.options(), &progress)?;
     progress.stage("clustering");
     let n = f64::from(args.joints);
-    let clusters =
-        Clustering { count: args.clusters, seed: everywhere.seed, blend: args.blend };
+    let clusters = Clustering { count: args.clusters, seed: everywhere.seed, blend: args.blend };
     let lengths = (1..=args.joints).map(|k| f64::from(k) / n).collect();
     let pose = armature(&curved.helices, &ArmatureOptions { clusters, lengths })?;
     progress.stage(format!("writing {}", args.output.display()));

@@ -9,7 +9,8 @@ use tress::fit::{Elements, FitOptions, FitReport, Sampling, fit, sample};
 use tress::geometry::{Groom, HelixGroom, UpAxis};
 use tress::io::{WriteOptions, write, write_bytes, write_helices};
 use tress::view::{
-    Bounds, Coloring, Panel, RenderOptions, RgbImage, Scale, Size, View, png, render_within, sheet,
+    Camera, Coloring, Panel, RenderOptions, RgbImage, Scale, Size, View, png, render,
+    render_seen_by, sheet,
 };
 
 use crate::args::{DemoArgs, Everywhere};
@@ -77,7 +78,7 @@ impl Tour {
         let measures = summarize(&fitted.helices);
         progress.stage("ruffling");
         let wisps = groups(&fitted.helices, &Grouping::Clusters(WISPS), seed)?;
-        let options = RuffleOptions { probability: 0.08, keep: 20, ..RuffleOptions::default() };
+        let options = RuffleOptions { probability: 0.03, keep: 30, ..RuffleOptions::default() };
         let (ruffled, report) = ruffle(&fitted.helices, &wisps, &options, seed)?;
         let counts: Vec<usize> = before.strands().counts().collect();
         let after = sample(&ruffled, &Sampling::Counts(&counts))?;
@@ -106,12 +107,14 @@ impl Tour {
     fn write_pictures(&self, dir: &Path) -> Result<(), Failure> {
         let options = RenderOptions {
             view: View::ThreeQuarter,
-            size: Size::new(900, 1100),
+            size: Size::new(900, 900),
             ..RenderOptions::default()
         };
-        let bounds = Bounds::of(&self.before).union(Bounds::of(&self.after));
+        let points = self.before.strands().points().iter().chain(self.after.strands().points());
+        let points = points.copied();
+        let camera = Camera::fit(points, UpAxis::Y, options.view, options.size, options.margin);
         let draw = |groom: &Groom, coloring: &Coloring<'_>| {
-            render_within(groom, bounds, coloring, &options)
+            render_seen_by(&camera, groom, coloring, &options)
         };
         let before = draw(&self.before, &Coloring::Natural)?;
         let after = draw(&self.after, &Coloring::Natural)?;
@@ -120,7 +123,7 @@ impl Tour {
             Panel { image: &after, caption: "ruffled: strands of a wisp exchange curls" },
         ];
         let both = sheet(&panels, 2, options.background)?;
-        let radius = self.colored_by_radius(draw)?;
+        let radius = self.colored_by_radius(&options)?;
         for (name, picture) in [
             ("before.png", &before),
             ("after.png", &after),
@@ -132,16 +135,13 @@ impl Tour {
         Ok(())
     }
 
-    fn colored_by_radius<E>(
-        &self,
-        draw: impl Fn(&Groom, &Coloring<'_>) -> Result<RgbImage, E>,
-    ) -> Result<RgbImage, E> {
+    fn colored_by_radius(&self, options: &RenderOptions) -> Result<RgbImage, Failure> {
         let (QuantityValues::Strands(values) | QuantityValues::Joints(values)) =
             quantity(&self.helices, Quantity::Radius);
         let range = Scale::without_strays(values.iter().copied(), 0.01);
         let title = Quantity::Radius.title().into();
         let scale = Scale { title, unit: "cm".into(), ..range };
-        draw(&self.before, &Coloring::Strands(&values, &scale))
+        Ok(render(&self.before, &Coloring::Strands(&values, &scale), options)?)
     }
 
     /// What was done, for people.

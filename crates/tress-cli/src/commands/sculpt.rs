@@ -39,8 +39,8 @@ pub(crate) fn run(args: &SculptArgs, everywhere: &Everywhere) -> Result<Report, 
 
 fn read_pose(path: &Path) -> Result<Pose, Failure> {
     let file = path.display();
-    let text = fs::read_to_string(path)
-        .map_err(|error| Failure::Failed(format!("{file}: {error}")))?;
+    let text =
+        fs::read_to_string(path).map_err(|error| Failure::Failed(format!("{file}: {error}")))?;
     ron::from_str(&text).map_err(|error| {
         let (line, column) = (error.span.start.line, error.span.start.col);
         Failure::Failed(format!("{file}: line {line}, column {column}: {}", error.code))
