@@ -51,14 +51,16 @@ impl<S: Simd> Lane<S> {
         for (i, x) in all.iter_mut().enumerate().take(S::F64_LANES) {
             *x = of(i);
         }
-        Self { simd, value: simd.partial_load_f64s(&all[..S::F64_LANES]) }
+        let (registers, _) = S::as_simd_f64s(&all);
+        Self { simd, value: registers[0] }
     }
 
     /// All lanes, those that the register does not have as 0.
     #[inline(always)]
     pub(crate) fn to_array(self) -> [f64; MAX_LANES] {
         let mut all = [0.0; MAX_LANES];
-        self.simd.partial_store_f64s(&mut all[..S::F64_LANES], self.value);
+        let (registers, _) = S::as_mut_simd_f64s(&mut all);
+        registers[0] = self.value;
         all
     }
 

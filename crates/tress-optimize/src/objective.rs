@@ -127,6 +127,16 @@ impl<'a> Objective<'a> {
         self.prepared.unreachable
     }
 
+    /// `c W_j`, by element.
+    pub(crate) fn stiffness(&self) -> impl Iterator<Item = DVec3> {
+        self.weights.iter().map(|&weight| self.c * weight)
+    }
+
+    /// Controls in the order of their arc lengths, anchors relative to the root and within reach.
+    pub(crate) fn controls(&self) -> &[Control] {
+        &self.prepared.controls
+    }
+
     /// `tr(J W^-1 J^T) / 3` of the tip at rest.
     fn compliance(&mut self) -> f64 {
         let mut blocks = vec![DMat3::ZERO; self.rest.elements.len()];
@@ -149,10 +159,11 @@ pub(crate) fn element_weights(
 ) {
     let length: f64 = elements.iter().map(|element| element.length).sum();
     let per_length = if 0.0 < length { 1.0 / length } else { 0.0 };
+    let taper = options.tip_weight.ln();
     let mut begins = 0.0;
     for element in elements {
         let middle = (begins + 0.5 * element.length) * per_length;
-        let weight = options.weights * options.tip_weight.powf(middle);
+        let weight = options.weights * (taper * middle).exp();
         give(match options.stiffness {
             Stiffness::Raw(_) => weight,
             Stiffness::Relative(_) => {

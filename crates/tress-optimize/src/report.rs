@@ -1,4 +1,6 @@
-//! What a solver says when it is done.
+//! What a solver says when it is done, of a strand and of a groom.
+
+use std::collections::BTreeMap;
 
 /// The energy of [CSE 15] in its two terms, both in length^2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -69,4 +71,61 @@ impl Report {
         anchor_distance: 0.0,
         unreachable: 0,
     };
+}
+
+/// What became of a groom.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sculpted {
+    /// By strand; none for strands that were not touched.
+    pub reports: Vec<Option<Report>>,
+    /// Strands without controls.
+    pub free: usize,
+    /// Strands with controls that are kept as polylines or have no elements.
+    pub kept: usize,
+    /// Strands with controls that are not finite.
+    pub not_finite: usize,
+}
+
+/// The reports of a groom's strands, taken together.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// Strands that were sculpted.
+    pub strands: usize,
+    /// Sums of their energies at the start and at the end.
+    pub start: Energy,
+    /// See `start`.
+    pub end: Energy,
+    /// Sum and greatest of their iterations.
+    pub iterations: (u64, u32),
+    /// How many stopped for which reason.
+    pub stops: BTreeMap<Stop, usize>,
+    /// Greatest distance of a control to its anchor, and the strand where it is; in length.
+    pub worst: Option<(usize, f64)>,
+    /// Anchors out of reach.
+    pub unreachable: usize,
+}
+
+impl Sculpted {
+    /// All reports taken together.
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        let mut all = Summary::default();
+        for (strand, report) in self.reports.iter().enumerate() {
+            let Some(report) = report else { continue };
+            all.strands += 1;
+            for (sum, energy) in [(&mut all.start, report.start), (&mut all.end, report.end)] {
+                sum.anchors += energy.anchors;
+                sum.bending += energy.bending;
+            }
+            let (sum, greatest) = all.iterations;
+            let iterations = report.iterations;
+            all.iterations = (sum + u64::from(iterations), greatest.max(iterations));
+            *all.stops.entry(report.stop).or_default() += 1;
+            if all.worst.is_none_or(|(_, distance)| distance < report.anchor_distance) {
+                all.worst = Some((strand, report.anchor_distance));
+            }
+            all.unreachable += report.unreachable as usize;
+        }
+        all
+    }
 }

@@ -1,11 +1,13 @@
 //! Strands and whole grooms drawn to anchors.
 
 use rayon::prelude::*;
-use tress_geometry::{Element, HelixGroom, Strands, SuperHelix};
+use tress_geometry::{Element, HelixGroom, OffsetsError, Strands, SuperHelix};
 
 use crate::batch::{Job, Memory, solve_all};
 use crate::control::Prepared;
-use crate::{Control, ControlError, Objective, OptionsError, Report, SculptOptions, Solver, adam};
+use crate::{
+    Control, ControlError, Objective, OptionsError, Report, SculptOptions, Sculpted, Solver, adam,
+};
 
 /// Why sculpting did not begin. Nothing has been changed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -48,6 +50,9 @@ pub enum SculptError {
         /// The strand's place in the groom.
         strand: usize,
     },
+    /// More controls than 32 bits can tell apart.
+    #[error(transparent)]
+    TooMany(#[from] OffsetsError),
 }
 
 /// Moves the control points of one strand to their anchors.
@@ -119,19 +124,6 @@ pub fn solve(
         }
     };
     Ok((pose, report))
-}
-
-/// What became of a groom.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Sculpted {
-    /// By strand; none for strands that were not touched.
-    pub reports: Vec<Option<Report>>,
-    /// Strands without controls.
-    pub free: usize,
-    /// Strands with controls that are kept as polylines or have no elements.
-    pub kept: usize,
-    /// Strands with controls that are not finite.
-    pub not_finite: usize,
 }
 
 /// Draws the strands of a groom to the anchors of their controls; one without controls stays.

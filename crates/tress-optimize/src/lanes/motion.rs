@@ -29,6 +29,12 @@ impl<S: Simd> Motion<S> {
         Self { q, s, a: s * a, b: s2 * b, c: s3 * c, db: s2 * s2 * db, dc: s2 * s3 * dc }
     }
 
+    /// The same element's motion to another arc length.
+    #[inline(always)]
+    pub(crate) fn to(&self, s: Lane<S>) -> Self {
+        Self::new(self.q, s)
+    }
+
     /// `V e0`.
     #[inline(always)]
     pub(crate) fn displacement(&self) -> LaneVec3<S> {
@@ -41,6 +47,35 @@ impl<S: Simd> Motion<S> {
     #[inline(always)]
     pub(crate) fn rotation(&self) -> LaneMat3<S> {
         polynomial(self.q, Lane::splat(self.s.simd(), 1.0), self.a, self.b)
+    }
+
+    /// `D^T f + L^T m`, without either matrix.
+    #[inline(always)]
+    pub(crate) fn pull(&self, f: LaneVec3<S>, m: LaneVec3<S>) -> LaneVec3<S> {
+        let q = self.q;
+        let square = q.dot(q);
+        let turned = q * q.dot(m) - m * square;
+        let turning = m * self.s - q.cross(m) * self.b + turned * self.c;
+        let moving = self.pull_here(f);
+        turning + moving
+    }
+
+    /// `D^T f`.
+    #[inline(always)]
+    pub(crate) fn pull_here(&self, f: LaneVec3<S>) -> LaneVec3<S> {
+        let LaneVec3 { x, y, z } = self.q;
+        let bending = y.mul_add(y, z * z);
+        let across = y.mul_add(f.y, z * f.z);
+        // c1 . f and c2 . f.
+        let (first, second) = (z * f.y - y * f.z, x * across - bending * f.x);
+        let slope = self.db.mul_add(first, self.dc * second);
+        let (bx, cx, cf) = (self.b, self.c * x, self.c * f.x * 2.0);
+        self.q * slope
+            + LaneVec3::new(
+                self.c * across,
+                cx * f.y - cf * y - bx * f.z,
+                cx * f.z - cf * z + bx * f.y,
+            )
     }
 
     /// `L = V`: how the frame turns when `q` changes.

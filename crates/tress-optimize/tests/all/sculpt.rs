@@ -71,6 +71,11 @@ fn anchors_are_reached_and_lengths_kept_to_the_bit() {
         reached += usize::from(worst < 1e-3 * after.length());
     }
     assert_eq!(sculpted.free, 20);
+    let summary = sculpted.summary();
+    assert_eq!((summary.strands, summary.stops.values().sum::<usize>()), (60, 60));
+    assert!(summary.end.total() < 0.01 * summary.start.total());
+    let (strand, worst) = summary.worst.expect("60 strands");
+    assert_eq!(sculpted.reports[strand].map(|r| r.anchor_distance), Some(worst));
     assert!(54 <= reached, "{reached} of 60: anchors may be too far from each other");
 }
 
