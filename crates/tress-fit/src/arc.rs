@@ -133,10 +133,12 @@ impl HalfAngle {
                 high = psi;
             }
             let newton = psi - value / slope;
-            let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
+            let quadratic = low < newton && newton < high;
+            let next = if quadratic { newton } else { 0.5 * (low + high) };
             let step = (next - psi).abs();
             psi = next;
-            if step <= 4.0 * f64::EPSILON || high - low <= 4.0 * f64::EPSILON {
+            // What a Newton step leaves is of the order of its square.
+            if (quadratic && step <= 1e-9) || high - low <= 4.0 * f64::EPSILON {
                 break;
             }
         }

@@ -21,12 +21,21 @@ pub(crate) fn per_segment(spline: &Spline, floating: Floating) -> StrandFit {
     StrandFit { root, elements, arc_lengths }
 }
 
+/// How many arcs an element needs if `n` of them share the curve.
+fn arcs_per_element(spline: &Spline, n: usize) -> f64 {
+    let arcs = spline.turning() / (n as f64 * GREATEST_TURN);
+    arcs.ceil().clamp(1.0, MOST_PARTS)
+}
+
+/// Whether each of `n` elements along the curve can be laid as one arc.
+pub(crate) fn is_enough(spline: &Spline, n: usize) -> bool {
+    arcs_per_element(spline, n) <= 1.0
+}
+
 /// `n` elements along the curve, of equal length as far as the curve goes.
 pub(crate) fn evenly(spline: &Spline, n: usize, floating: Floating) -> StrandFit {
-    let turning = spline.turning();
-    let split = (turning / (n as f64 * GREATEST_TURN)).ceil().clamp(1.0, MOST_PARTS);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to MOST_PARTS")]
-    let split = split as usize;
+    let split = arcs_per_element(spline, n) as usize;
     let joints = Joints::evenly(spline, n * split);
     let on_curve = joints.arc_lengths.clone();
     let (root, arcs) = joints.chain(floating);
@@ -59,7 +68,7 @@ struct Joints {
 
 /// An arc may turn this far before it is split for the fit: the short way round is then surely
 /// the right one.
-const GREATEST_TURN: f64 = 0.6 * PI;
+const GREATEST_TURN: f64 = 0.9 * PI;
 
 /// One element stands for no more arcs than this: about 19 turns.
 const MOST_PARTS: f64 = 64.0;
@@ -125,7 +134,7 @@ const LONGEST: f64 = 8.0;
 
 /// The planar arc along `chord` that starts along `t0`; half a turn in the place of one that would
 /// have to go back on itself.
-fn circle(chord: DVec3, t0: DVec3) -> Option<HelixArc> {
+pub(crate) fn circle(chord: DVec3, t0: DVec3) -> Option<HelixArc> {
     let reach = chord.length();
     let ahead = chord.try_normalize()?;
     let (sine, cosine) = (t0.cross(ahead), t0.dot(ahead));

@@ -10,16 +10,18 @@ use serde::{Deserialize, Serialize};
 /// let options = FitOptions { elements: Elements::Count(90), ..FitOptions::default() };
 /// assert!(options.validate().is_ok());
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FitOptions {
     /// How many elements a strand gets. Default: one a segment.
     pub elements: Elements,
-    /// How tangents at the points are found. Default: from the circle through three points.
+    /// How tangents at the points are found. Default: from the helix through five.
     pub tangents: TangentRule,
     /// What moves to make neighbours co-helical. Default: the points.
     pub floating: Floating,
-    /// The refinement that follows the arcs; `None` leaves them as they are, which is faster.
+    /// The refinement; `None` leaves the arcs as they are, which is ten times as fast. Default:
+    /// refined. A tolerance, and a count at which elements turn half round or more, are refined in
+    /// any case.
     pub refine: Option<Refine>,
 }
 
@@ -33,6 +35,18 @@ pub enum Elements {
     Count(usize),
     /// As few as keep all points this near.
     Tolerance(Tolerance),
+}
+
+impl Elements {
+    /// The same for strands divided by `size`.
+    pub(crate) fn scaled(self, size: f64) -> Self {
+        match self {
+            Self::Tolerance(Tolerance::Length(length)) => {
+                Self::Tolerance(Tolerance::Length(length / size))
+            }
+            other => other,
+        }
+    }
 }
 
 /// How far a point may be from the fit.
@@ -52,8 +66,11 @@ pub enum TangentRule {
     /// Centripetal Catmull-Rom: knots spaced by the square roots of segments' lengths.
     Centripetal,
     /// The tangent of the circle through a point and its neighbours (chordal Catmull-Rom).
-    #[default]
     Circle,
+    /// The tangent of the helix that five points, if they are even, were taken from; where they
+    /// are not, that of the circle.
+    #[default]
+    Helix,
 }
 
 impl TangentRule {
@@ -63,7 +80,7 @@ impl TangentRule {
         match self {
             Self::Uniform => 0.0,
             Self::Centripetal => 0.5,
-            Self::Circle => 1.0,
+            Self::Circle | Self::Helix => 1.0,
         }
     }
 }
@@ -84,11 +101,29 @@ pub enum Floating {
 pub struct Refine {
     /// Greatest number of steps.
     pub steps: usize,
+    /// How strongly the curvatures of neighbouring elements are held together; a pure number.
+    /// 1 weighs the shift that a jump of curvature brings about from one point to the next as
+    /// much as a point missed by that shift.
+    pub prior: f64,
+    /// Whether the lengths of elements change too.
+    pub lengths: bool,
+    /// Whether the tangent at the root changes too; the root's position never does.
+    pub root: bool,
 }
 
 impl Default for Refine {
     fn default() -> Self {
-        Self { steps: 8 }
+        Self { steps: 8, prior: 1e-2, lengths: true, root: true }
+    }
+}
+
+impl Refine {
+    fn validate(&self) -> Result<(), FitOptionsError> {
+        let value = self.prior;
+        if 0.0 < value && value.is_finite() {
+            return Ok(());
+        }
+        Err(FitOptionsError::Prior { value })
     }
 }
 
@@ -130,6 +165,30 @@ pub enum FitOptionsError {
         /// The tolerance given.
         value: f64,
     },
+    /// The prior must be a positive number: without it what lies between points is open.
+    ///
+    /// ```
+    /// # use tress_fit::{FitOptions, FitOptionsError, Refine};
+    /// let refine = Some(Refine { prior: 0.0, ..Refine::default() });
+    /// let none = FitOptions { refine, ..FitOptions::default() };
+    /// assert_eq!(none.validate(), Err(FitOptionsError::Prior { value: 0.0 }));
+    /// ```
+    #[error("the prior {value} is not a positive number")]
+    Prior {
+        /// The prior given.
+        value: f64,
+    },
+}
+
+impl Default for FitOptions {
+    fn default() -> Self {
+        Self {
+            elements: Elements::default(),
+            tangents: TangentRule::default(),
+            floating: Floating::default(),
+            refine: Some(Refine::default()),
+        }
+    }
 }
 
 impl FitOptions {
@@ -152,7 +211,7 @@ impl FitOptions {
             {
                 Err(FitOptionsError::Tolerance { value })
             }
-            _ => Ok(()),
+            _ => self.refine.map_or(Ok(()), |refine| refine.validate()),
         }
     }
 }

@@ -1,7 +1,6 @@
 //! The smooth curve through the points of a polyline, by arc length.
 //!
-//! Cubic Hermite segments with Catmull-Rom derivatives (see
-//! [`catmull_rom_derivative`]), knots spaced as the [`TangentRule`] says. Arc length comes from
+//! Cubic Hermite segments, with derivatives and knots as the [`TangentRule`] says. Arc length comes from
 //! Gauss-Legendre quadrature of the speed and is inverted by Newton's method.
 
 use glam::DVec3;
@@ -9,6 +8,7 @@ use tress_geometry::curves::catmull_rom_derivative;
 use tress_geometry::polyline::place;
 
 use crate::TangentRule;
+use crate::tangents::helix_derivative;
 
 /// A smooth curve through points, measured by its arc length.
 ///
@@ -20,8 +20,8 @@ use crate::TangentRule;
 ///     .map(|i| f64::from(i) * std::f64::consts::FRAC_PI_4)
 ///     .map(|a| DVec3::new(a.cos(), a.sin(), 0.0))
 ///     .collect();
-/// let spline = Spline::through(&circle, TangentRule::Circle);
-/// assert!((spline.length() / std::f64::consts::TAU - 1.0).abs() < 1e-2);
+/// let spline = Spline::through(&circle, TangentRule::Helix);
+/// assert!((spline.length() / std::f64::consts::TAU - 1.0).abs() < 1e-4);
 /// let (point, tangent) = spline.at(0.5 * spline.length());
 /// assert!(point.distance(DVec3::NEG_X) < 1e-9 && tangent.distance(DVec3::NEG_Y) < 1e-9);
 /// ```
@@ -55,7 +55,7 @@ impl Spline {
         let alpha = rule.knot_exponent();
         let chords = points.windows(2).map(|ends| ends[0].distance(ends[1]));
         let spans: Vec<f64> = chords.map(|chord| chord.powf(alpha)).collect();
-        let slopes = (0..points.len()).map(|i| slope(points, &spans, i, alpha)).collect();
+        let slopes = (0..points.len()).map(|i| slope(points, &spans, i, rule)).collect();
         let mut spline = Self { points: points.to_vec(), slopes, spans, arc_lengths: vec![0.0] };
         spline.arc_lengths.reserve(points.len());
         let mut length = 0.0;
@@ -141,12 +141,22 @@ impl Spline {
     }
 }
 
-/// The derivative at point `i`; across the strand where it doubles back on itself exactly.
-fn slope(points: &[DVec3], spans: &[f64], i: usize, alpha: f64) -> DVec3 {
-    let slope = catmull_rom_derivative(points, i, alpha);
-    let Some(near) = spans.get(i).or(spans.last()) else { return slope };
-    let other = if i + 1 < points.len() { i + 1 } else { i.saturating_sub(1) };
-    let chord = (points[other] - points[i]) / *near;
+/// The derivative by the knot at point `i`; across the strand where it doubles back on itself
+/// exactly.
+fn slope(points: &[DVec3], spans: &[f64], i: usize, rule: TangentRule) -> DVec3 {
+    let before = spans.get(i.wrapping_sub(1)).copied();
+    let after = spans.get(i).copied();
+    let Some(near) = after.or(before) else { return DVec3::ZERO };
+    let helix = match rule {
+        TangentRule::Helix => helix_derivative(points, i),
+        _ => None,
+    };
+    if let Some(by_index) = helix {
+        return by_index * 2.0 / (before.unwrap_or(near) + after.unwrap_or(near));
+    }
+    let slope = catmull_rom_derivative(points, i, rule.knot_exponent());
+    let other = if i + 1 < points.len() { i + 1 } else { i - 1 };
+    let chord = (points[other] - points[i]) / near;
     if slope.is_finite() && 1e-9 * chord.length() < slope.length() {
         return slope;
     }
@@ -157,10 +167,13 @@ fn slope(points: &[DVec3], spans: &[f64], i: usize, alpha: f64) -> DVec3 {
 mod tests {
     use super::*;
 
+    const RULES: [TangentRule; 4] =
+        [TangentRule::Uniform, TangentRule::Centripetal, TangentRule::Circle, TangentRule::Helix];
+
     #[test]
     fn it_passes_through_its_points_and_moves_by_arc_length() {
         let points = [DVec3::ZERO, DVec3::X, DVec3::new(1.5, 1.0, 0.3), DVec3::new(0.0, 3.0, 1.0)];
-        for rule in [TangentRule::Uniform, TangentRule::Centripetal, TangentRule::Circle] {
+        for rule in RULES {
             let spline = Spline::through(&points, rule);
             for (point, &s) in points.iter().zip(spline.arc_lengths()) {
                 assert!(spline.at(s).0.distance(*point) < 1e-12);
@@ -184,9 +197,11 @@ mod tests {
 
     #[test]
     fn doubling_back_gives_a_tangent_across() {
-        let spline = Spline::through(&[DVec3::ZERO, DVec3::X, DVec3::ZERO], TangentRule::Circle);
-        let tangent = spline.tangents().nth(1).expect("three tangents");
-        assert!(tangent.x.abs() < 1e-15 && (tangent.length() - 1.0).abs() < 1e-15);
-        assert!(spline.length().is_finite());
+        for rule in RULES {
+            let spline = Spline::through(&[DVec3::ZERO, DVec3::X, DVec3::ZERO], rule);
+            let tangent = spline.tangents().nth(1).expect("three tangents");
+            assert!(tangent.x.abs() < 1e-15 && (tangent.length() - 1.0).abs() < 1e-15);
+            assert!(spline.length().is_finite());
+        }
     }
 }

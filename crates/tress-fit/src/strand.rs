@@ -8,7 +8,7 @@ use glam::DVec3;
 use tress_geometry::polyline::defect;
 use tress_geometry::{Element, Frame, SuperHelix};
 
-use crate::{Elements, FitOptions, KeptReason, Spline, direct};
+use crate::{Elements, FitOptions, KeptReason, Spline, direct, refined};
 
 /// A super-helix fitted to a polyline.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,11 +65,15 @@ pub fn fit_strand(points: &[DVec3], options: &FitOptions) -> Result<StrandFit, K
         return Err(KeptReason::Defect(tress_geometry::polyline::Defect::ZeroLength));
     }
     let spline = Spline::through(&strand.points, options.tangents);
-    let fit = match options.elements {
-        Elements::PerSegment | Elements::Tolerance(_) => {
-            direct::per_segment(&spline, options.floating)
+    let fit = match (options.refine, options.elements) {
+        (None, Elements::Count(n)) if direct::is_enough(&spline, n) => {
+            direct::evenly(&spline, n, options.floating)
         }
-        Elements::Count(n) => direct::evenly(&spline, n, options.floating),
+        (None, Elements::PerSegment) => direct::per_segment(&spline, options.floating),
+        (refine, elements) => {
+            let elements = elements.scaled(strand.size);
+            refined::fit(&spline, elements, options.floating, &refine.unwrap_or_default())
+        }
     };
     Ok(strand.restore(fit))
 }
@@ -109,7 +113,13 @@ impl Normalized {
         let position = self.origin + fit.root.position * self.size;
         let root = Frame { position, axes: fit.root.axes };
         let elements: Vec<Element> = fit.elements.iter().map(scale).collect();
-        let arc_lengths = self.places.iter().map(|&i| fit.arc_lengths[i] * self.size).collect();
+        let mut along = 0.0;
+        let arc_length = |&i: &usize| {
+            // Rounding must not make a point precede the one before it.
+            along = f64::max(along, fit.arc_lengths[i] * self.size);
+            along
+        };
+        let arc_lengths = self.places.iter().map(arc_length).collect();
         StrandFit { root, elements, arc_lengths }
     }
 }

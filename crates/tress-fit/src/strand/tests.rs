@@ -2,7 +2,7 @@ use glam::DVec3;
 use tress_geometry::polyline::Defect;
 
 use super::*;
-use crate::Floating;
+use crate::{Floating, Refine, Tolerance, deviation};
 
 fn helix(radius: f64, pitch: f64, per_turn: f64, n: usize) -> Vec<DVec3> {
     let angle = |i: usize| i as f64 * std::f64::consts::TAU / per_turn;
@@ -93,21 +93,26 @@ fn troublesome() -> Vec<(&'static str, Vec<DVec3>)> {
 
 #[test]
 fn troublesome_strands_stay_finite_and_near() {
+    let wanted = [
+        Elements::PerSegment,
+        Elements::Count(1),
+        Elements::Count(25),
+        Elements::Tolerance(Tolerance::OfRadius(0.05)),
+    ];
     for (name, points) in troublesome() {
-        let first = points[0];
-        let size = points.iter().map(|p| p.distance(first)).fold(0.0, f64::max);
-        for floating in BOTH {
-            for elements in [Elements::PerSegment, Elements::Count(1), Elements::Count(25)] {
-                let fit = fit_strand(&points, &direct(elements, floating)).expect(name);
-                let strand = fit.super_helix();
+        let size = points.iter().map(|p| p.distance(points[0])).fold(0.0, f64::max);
+        for (elements, floating) in wanted.iter().flat_map(|e| BOTH.map(|f| (*e, f))) {
+            for refine in [None, Some(Refine::default())] {
+                let options = FitOptions { refine, ..direct(elements, floating) };
+                let fit = fit_strand(&points, &options).expect(name);
                 assert_eq!(fit.arc_lengths.len(), points.len(), "{name}");
                 assert!(fit.arc_lengths.windows(2).all(|s| s[0] <= s[1]), "{name}");
-                let tip = strand.tip();
-                assert!(tip.position.is_finite() && tip.axes.is_finite(), "{name}");
+                let tip = fit.super_helix().tip();
+                assert!(tip.position.is_finite() && tip.axes.is_finite(), "{name} {options:?}");
                 assert!(tip.orthonormality_error() < 1e-9, "{name}");
                 let off = tip.position.distance(points[points.len() - 1]);
                 if elements != Elements::Count(1) {
-                    assert!(off <= 3.0 * size, "{name} {floating:?} {elements:?}: {off}");
+                    assert!(off <= 3.0 * size, "{name} {options:?}: {off}");
                 }
             }
         }
@@ -131,5 +136,145 @@ fn size_and_place_do_not_matter() {
     let other = fit_strand(&moved, &options).expect("a coil");
     for (a, b) in fit.elements.iter().zip(&other.elements) {
         assert!((a.curvature - b.curvature * 1024.0).length() < 1e-9 * a.curvature.length());
+    }
+}
+
+fn refined(elements: Elements) -> FitOptions {
+    FitOptions { elements, ..FitOptions::default() }
+}
+
+#[test]
+fn exact_helices_are_recovered_from_five_points_a_turn() {
+    for pitch in [0.0, 0.05, 0.4, -1.0, 6.0] {
+        let points = helix(0.5, pitch, 5.0, 61);
+        let exact = Element::coil(0.5, pitch);
+        for elements in [Elements::PerSegment, Elements::Count(1), Elements::Count(90)] {
+            let fit = fit_strand(&points, &refined(elements)).expect("a coil");
+            for element in &fit.elements {
+                let size = exact.curvature.length();
+                assert!((element.twist() - exact.twist()).abs() < 1e-6 * size, "{pitch}");
+                assert!((element.bending() - exact.bending()).abs() < 1e-6 * size, "{pitch}");
+            }
+        }
+        for tolerance in [Tolerance::Length(1e-6), Tolerance::OfRadius(1e-6)] {
+            let options = refined(Elements::Tolerance(tolerance));
+            let fit = fit_strand(&points, &options).expect("a coil");
+            assert_eq!(fit.elements.len(), 1, "{pitch} {tolerance:?}");
+        }
+    }
+}
+
+/// Points of the strand of length 8 whose material curvatures at arc length `x` are `q(x)`,
+/// `density` points a unit of length.
+fn integrated(density: usize, q: impl Fn(f64) -> DVec3) -> Vec<DVec3> {
+    let fine = 400;
+    let length = 1.0 / f64::from(fine);
+    let elements: Vec<Element> = (0..8 * fine)
+        .map(|i| Element { curvature: q((f64::from(i) + 0.5) * length), length })
+        .collect();
+    let strand = SuperHelix { root: Frame::IDENTITY, elements: &elements };
+    let n = 8 * density;
+    let along = (0..=n).map(|i| 8.0 * i as f64 / n as f64);
+    strand.frames_at(along).map(|frame| frame.position).collect()
+}
+
+/// A coil of 8 turns whose axis bends, whose radius varies and whose hand changes midway.
+fn wild_coil(per_turn: usize) -> Vec<DVec3> {
+    integrated(per_turn, |x| {
+        let hand = ((x - 4.0) / 0.8).tanh();
+        let bend = 0.1 * (std::f64::consts::TAU * x).cos();
+        6.0 * (1.0 + 0.15 * (0.7 * x).sin()) * DVec3::new(0.3 * hand, 0.0, 1.0 + bend)
+    })
+}
+
+#[test]
+fn twice_the_elements_are_four_times_as_near() {
+    let points = wild_coil(80);
+    let rms = |n: usize| {
+        let options = FitOptions {
+            elements: Elements::Count(n),
+            refine: Some(Refine { prior: 1e-6, ..Refine::default() }),
+            ..FitOptions::default()
+        };
+        let fit = fit_strand(&points, &options).expect("a coil");
+        deviation(&fit.super_helix(), &points, &fit.arc_lengths).rms
+    };
+    let errors = [20, 40, 80, 160].map(rms);
+    for pair in errors.windows(2) {
+        assert!(pair[1] < 0.3 * pair[0], "{errors:?}");
+    }
+}
+
+#[test]
+fn tolerances_are_kept_with_fewer_elements_where_curvature_is_even() {
+    let points = wild_coil(10);
+    let mut before = usize::MAX;
+    for tolerance in [1e-3, 1e-2, 5e-2] {
+        let options = refined(Elements::Tolerance(Tolerance::Length(tolerance)));
+        let fit = fit_strand(&points, &options).expect("a coil");
+        let apart = deviation(&fit.super_helix(), &points, &fit.arc_lengths);
+        assert!(apart.greatest <= tolerance, "{tolerance}: {apart:?}");
+        assert!(fit.elements.len() <= before, "{tolerance}: {} {before}", fit.elements.len());
+        before = fit.elements.len();
+    }
+}
+
+#[test]
+fn elements_are_short_where_curvature_changes() {
+    // Half a helix, whose curvature then falls to nothing.
+    let points = integrated(9, |x| {
+        let wound = 1.0 - ((x - 6.0) / 0.5).tanh();
+        DVec3::new(1.0, 0.0, 3.0 * wound)
+    });
+    let options = refined(Elements::Tolerance(Tolerance::Length(2e-3)));
+    let fit = fit_strand(&points, &options).expect("a strand");
+    let longest = fit.elements.iter().map(|element| element.length).fold(0.0, f64::max);
+    let shortest = fit.elements.iter().map(|element| element.length).fold(f64::MAX, f64::min);
+    assert!(3.0 * shortest < longest, "{shortest} {longest}");
+    assert!(fit.elements.len() < 60, "{}", fit.elements.len());
+}
+
+#[test]
+fn between_the_points_the_fit_follows_the_coil_it_was_taken_from() {
+    // Twenty points a turn are known, every fourth is given.
+    let fine = wild_coil(20);
+    let given: Vec<_> = fine.iter().step_by(4).copied().collect();
+    let fit = fit_strand(&given, &refined(Elements::PerSegment)).expect("a coil");
+    let length = fit.super_helix().length();
+    let along: Vec<f64> =
+        (0..fine.len()).map(|i| length * i as f64 / (fine.len() - 1) as f64).collect();
+    let apart = deviation(&fit.super_helix(), &fine, &along);
+    // The coil's radius is 0.15; its curvature changes by a fifth within a turn.
+    assert!(apart.rms < 1e-3, "{apart:?}");
+    let curve_length = wild_coil(400).windows(2).map(|p| p[0].distance(p[1])).sum::<f64>();
+    assert!((length / curve_length - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn noise_on_a_nearly_straight_strand_is_not_wound_up() {
+    let noisy = |i: i32| {
+        let wobble = 1e-4 * f64::from((i * 7919) % 13 - 6);
+        DVec3::new(f64::from(i), wobble, 1e-4 * f64::from((i * 104_729) % 11 - 5))
+    };
+    let points: Vec<_> = (0..50).map(noisy).collect();
+    let fit = fit_strand(&points, &FitOptions::default()).expect("a strand");
+    assert!(fit.super_helix().turns() < 0.1, "{}", fit.super_helix().turns());
+}
+
+#[test]
+fn an_element_may_turn_more_than_once() {
+    let points = helix(0.5, 0.4, 8.0, 81);
+    let fit = fit_strand(&points, &refined(Elements::Count(3))).expect("a coil");
+    assert!((fit.super_helix().turns() - 10.0).abs() < 1e-6);
+    assert!(2.0 < fit.elements[1].turns());
+}
+
+#[test]
+fn more_elements_than_points_say_anything_about_are_made() {
+    for points in [helix(0.5, 0.4, 5.0, 30), helix(0.5, 0.4, 5.0, 3), helix(0.5, 0.4, 5.0, 2)] {
+        let fit = fit_strand(&points, &refined(Elements::Count(300))).expect("a strand");
+        assert_eq!(fit.elements.len(), 300);
+        let apart = deviation(&fit.super_helix(), &points, &fit.arc_lengths);
+        assert!(apart.greatest < 1e-3, "{} points: {apart:?}", points.len());
     }
 }

@@ -1,0 +1,195 @@
+//! The refined fit of one strand: which elements are refined, and from which draft.
+//!
+//! Helices are first laid *through the points*: an element a segment, joints held by the points,
+//! curvature as even as that allows. Of all the ways tried this comes nearest to what a coil does
+//! between its points (see `docs/fit.md`), so it is the curve that fewer elements are drafted on.
+//! Where points are dense the smooth curve through them is as good, and the first stage is left
+//! out.
+
+use tress_geometry::polyline::place;
+
+use crate::draft::Draft;
+use crate::measure::coil_radius;
+use crate::refine::{Hold, Refiner};
+use crate::{Elements, Floating, Refine, Spline, StrandFit, Tolerance, direct};
+
+/// Up to this angle a segment, in radians, the smooth curve serves as the draft: its error there
+/// is 1e-3 of a coil's radius.
+const DENSE: f64 = 0.9;
+
+/// The prior's weight from first to last, see [`Refiner::approach`].
+const ONCE: (f64, f64) = (1.0, 1.0);
+
+/// The refined fit along the smooth curve through a strand's points.
+pub(crate) fn fit(
+    spline: &Spline,
+    elements: Elements,
+    floating: Floating,
+    settings: &Refine,
+) -> StrandFit {
+    let points = spline.points();
+    let mut refiner = Refiner::default();
+    let draft = match elements {
+        Elements::PerSegment => {
+            let mut draft = Draft::on(spline, spline.arc_lengths());
+            let cost = refiner.refine(points, &mut draft, Hold::Joints, settings);
+            if is_astray(cost, points.len()) {
+                return direct::per_segment(spline, floating);
+            }
+            draft
+        }
+        Elements::Count(n) => {
+            let mut draft = if spline.turning() < DENSE * (points.len() - 1) as f64 {
+                Draft::on(spline, &evenly(spline.length(), n))
+            } else {
+                let through = through_points(spline, settings, &mut refiner);
+                through.redrawn(&evenly(through.length(), n))
+            };
+            let cost = refiner.refine(points, &mut draft, Hold::Nearest, settings);
+            if is_astray(cost, points.len()) {
+                return direct::evenly(spline, n, floating);
+            }
+            draft
+        }
+        Elements::Tolerance(tolerance) => {
+            let through = through_points(spline, settings, &mut refiner);
+            match within(&through, spline, tolerance, settings, &mut refiner) {
+                Some(draft) => draft,
+                // Floating tangents pass through every point.
+                None => return direct::per_segment(spline, Floating::Tangents),
+            }
+        }
+    };
+    let arc_lengths = draft.arc_lengths();
+    StrandFit { root: draft.joints[0], elements: draft.elements, arc_lengths }
+}
+
+/// A mean square distance above this, for a strand of size 1, is no fit: the refinement went
+/// astray, and the arcs as they are serve better.
+const ASTRAY: f64 = 1e-2;
+
+fn is_astray(cost: f64, n_points: usize) -> bool {
+    !cost.is_finite() || ASTRAY * (n_points as f64) < cost
+}
+
+/// An element a segment, refined so far that others can be drafted on it.
+fn through_points(spline: &Spline, settings: &Refine, refiner: &mut Refiner) -> Draft {
+    let mut draft = Draft::on(spline, spline.arc_lengths());
+    refiner.approach(spline.points(), &mut draft, Hold::Joints, settings, ONCE);
+    draft
+}
+
+/// Arc lengths of the joints of `n` equal elements.
+fn evenly(length: f64, n: usize) -> Vec<f64> {
+    (0..=n).map(|i| length * (i as f64 / n as f64)).collect()
+}
+
+/// Parts of the prior that one element a segment is tried with, where fewer do not keep to a
+/// tolerance: as points are missed the less the weaker it is.
+const SOFTER: [f64; 4] = [1.0, 1e-2, 1e-4, 1e-6];
+
+/// The fewest elements found that keep all points within the tolerance; one a segment if there are
+/// no fewer, and nothing if those do not either.
+///
+/// Numbers are doubled until one serves and then halved in between. Elements are short where
+/// curvature changes, see [`Spacing`].
+fn within(
+    through: &Draft,
+    spline: &Spline,
+    tolerance: Tolerance,
+    settings: &Refine,
+    refiner: &mut Refiner,
+) -> Option<Draft> {
+    let points = spline.points();
+    let bound = match tolerance {
+        Tolerance::Length(length) => length,
+        Tolerance::OfRadius(part) => part * coil_radius(&through.elements),
+    };
+    let spacing = Spacing::of(through);
+    let mut attempt = |n: usize| {
+        let mut draft = through.redrawn(&spacing.joints(n));
+        let cost = refiner.refine(points, &mut draft, Hold::Nearest, settings);
+        (cost.is_finite() && draft.greatest_distance(points) <= bound).then_some(draft)
+    };
+    let most = points.len() - 1;
+    let (mut too_few, mut enough) = (0, 1);
+    let mut found = attempt(enough);
+    while found.is_none() && 2 * enough < most {
+        too_few = enough;
+        enough *= 2;
+        found = attempt(enough);
+    }
+    let Some(mut best) = found else {
+        return SOFTER.iter().find_map(|part| {
+            let mut draft = through.clone();
+            let settings = Refine { prior: part * settings.prior, ..*settings };
+            let cost = refiner.refine(points, &mut draft, Hold::Joints, &settings);
+            (cost.is_finite() && draft.greatest_distance(points) <= bound).then_some(draft)
+        });
+    };
+    while 1 < enough - too_few {
+        let middle = too_few.midpoint(enough);
+        match attempt(middle) {
+            Some(draft) => (enough, best) = (middle, draft),
+            None => too_few = middle,
+        }
+    }
+    Some(best)
+}
+
+/// Where elements of a strand should begin, for any number of them.
+///
+/// An element of length `h` on a curve whose curvature changes by `q'` a unit of length is off by
+/// `|q'| h^3`; elements are equally far off when the integral of `|q'|^(1/3)` is shared out evenly.
+struct Spacing {
+    /// Arc lengths, and that integral up to them.
+    arc_lengths: Vec<f64>,
+    shares: Vec<f64>,
+}
+
+/// Where curvature changes less than this part of its greatest change, elements grow no longer.
+const LEAST_SHARE: f64 = 0.1;
+
+impl Spacing {
+    fn of(draft: &Draft) -> Self {
+        let elements = &draft.elements;
+        let jumps: Vec<f64> = (1..elements.len())
+            .map(|j| {
+                let before = draft.joints[j - 1].axes * elements[j - 1].curvature;
+                let jump = draft.joints[j].axes * elements[j].curvature - before;
+                jump.length() / (0.5 * (elements[j - 1].length + elements[j].length))
+            })
+            .collect();
+        let densities = (0..elements.len()).map(|j| {
+            let near = jumps.get(j.saturating_sub(2)..(j + 2).min(jumps.len())).unwrap_or(&[]);
+            near.iter().copied().fold(0.0, f64::max).cbrt()
+        });
+        let densities: Vec<f64> = densities.collect();
+        let greatest = densities.iter().copied().fold(0.0, f64::max);
+        let floor = if 0.0 < greatest { LEAST_SHARE * greatest } else { 1.0 };
+        let (mut s, mut share) = (0.0, 0.0);
+        let (mut arc_lengths, mut shares) = (vec![0.0], vec![0.0]);
+        for (element, density) in elements.iter().zip(&densities) {
+            s += element.length;
+            share += element.length * density.max(floor);
+            arc_lengths.push(s);
+            shares.push(share);
+        }
+        Self { arc_lengths, shares }
+    }
+
+    /// Arc lengths of the joints of `n` elements.
+    fn joints(&self, n: usize) -> Vec<f64> {
+        let total = self.shares.last().copied().unwrap_or(0.0);
+        let length = self.arc_lengths.last().copied().unwrap_or(0.0);
+        let at = |i: usize| {
+            if i == n {
+                return length;
+            }
+            let (j, beyond) = place(&self.shares, total * (i as f64 / n as f64));
+            let next = self.arc_lengths.get(j + 1).copied().unwrap_or(length);
+            self.arc_lengths[j] + (next - self.arc_lengths[j]) * beyond
+        };
+        (0..=n).map(at).collect()
+    }
+}
