@@ -260,7 +260,8 @@ fn strand_controls(
             .map(|motion| motion.weights[strand] * displacement(&motion.maps, at, point))
             .sum();
         moved |= 1e-12 * length < shift.length();
-        let put = direct.iter().find(|anchor| anchor.0 == at).map(|anchor| anchor.1);
+        let put =
+            direct.iter().find(|anchor| anchor.0.total_cmp(&at).is_eq()).map(|anchor| anchor.1);
         Control::new(at * length, put.unwrap_or(point + shift))
     };
     let controls: Vec<Control> = at.iter().zip(points).map(control).collect();

@@ -1,5 +1,7 @@
 //! Controls: points of a strand and the anchors they are drawn to.
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use tress_geometry::SuperHelix;
@@ -129,7 +131,8 @@ impl Prepared {
         for pair in self.order.windows(2) {
             let (first, second) = (pair[0].min(pair[1]), pair[0].max(pair[1]));
             let (a, b) = (&controls[first], &controls[second]);
-            if a.arc_length == b.arc_length && a.anchor != b.anchor {
+            let same = a.arc_length.partial_cmp(&b.arc_length).is_some_and(Ordering::is_eq);
+            if same && a.anchor != b.anchor {
                 let arc_length = a.arc_length;
                 return Err(ControlError::Contradiction { first, second, arc_length });
             }

@@ -110,7 +110,8 @@ pub(crate) struct Levenberg<S: Simd> {
     /// `mu`.
     damping: Lane<S>,
     failures: Lane<S>,
-    iterations: Lane<S>,
+    /// Walks of each lane.
+    walks: [u32; MAX_LANES],
     gradient: Lane<S>,
     active: Mask<S>,
     /// Where the gradient falls too slowly for what the steps leave out; in and out.
@@ -140,7 +141,7 @@ impl<S: Simd> Levenberg<S> {
             square: zero,
             damping: zero,
             failures: zero,
-            iterations: zero,
+            walks: [0; MAX_LANES],
             gradient: zero,
             active: none,
             slow: none,
@@ -167,7 +168,10 @@ impl<S: Simd> Levenberg<S> {
             }
             chain.walk(&self.trial);
             self.normal.assemble(chain);
-            self.iterations += self.active.keep(one);
+            let active = self.active.keep(one).to_array();
+            for (walks, active) in self.walks.iter_mut().zip(active) {
+                *walks += u32::from(0.5 < active);
+            }
             if iteration == 0 {
                 start = self.start(chain, limits);
             }
@@ -192,7 +196,8 @@ impl<S: Simd> Levenberg<S> {
         self.positions.resize(m, none);
         self.normal.resize(simd, m);
         self.energy = Lane::splat(simd, f64::INFINITY);
-        (self.way, self.damping, self.failures, self.iterations) = (zero, zero, zero, zero);
+        (self.way, self.damping, self.failures) = (zero, zero, zero);
+        self.walks = [0; MAX_LANES];
         self.active = Lane::from_fn(simd, |i| if i < used { 1.0 } else { 0.0 }).is(1.0);
         self.converged = zero.below(zero);
         self.balanced = self.converged;
@@ -320,20 +325,22 @@ impl<S: Simd> Levenberg<S> {
         let bending = (self.c * self.square).to_array();
         let (converged, balanced) = (self.converged.keep(one), self.balanced.keep(one));
         let (converged, balanced) = (converged.to_array(), balanced.to_array());
-        let (iterations, gradient) = (self.iterations.to_array(), self.gradient.to_array());
+        let gradient = self.gradient.to_array();
         let (active, reference) = (self.active.keep(one).to_array(), self.reference.to_array());
         let (c, slow) = (self.c.to_array(), self.slow.keep(one).to_array());
+        let counted = self.walks;
+        let yes = |answer: f64| 0.5 < answer;
         std::array::from_fn(|i| Outcome {
             start: start[i],
             end: Energy { anchors: anchors[i], bending: bending[i] },
-            iterations: iterations[i] as u32,
-            stop: match (converged[i] == 1.0, balanced[i] == 1.0, active[i] == 1.0) {
+            iterations: counted[i],
+            stop: match (yes(converged[i]), yes(balanced[i]), yes(active[i])) {
                 (true, true, _) => Stop::LocalMinimum,
                 (true, false, _) => Stop::Converged,
                 (false, _, true) => Stop::MaxIterations,
                 (false, _, false) => Stop::NoDescent,
             },
-            slow: slow[i] == 1.0,
+            slow: yes(slow[i]),
             gradient: gradient[i],
             reference: reference[i],
             c: c[i],

@@ -8,7 +8,7 @@ use tress_optimize::{Control, Objective, SculptOptions, Stiffness};
 
 use crate::common::{coil, targets};
 
-#[path = "../../benches/algorithms.rs"]
+#[path = "../../benches/sculpt/algorithms.rs"]
 mod algorithms;
 
 #[derive(Deserialize)]
@@ -76,8 +76,8 @@ fn gradients_are_those_of_the_golden_jacobians() {
 
 #[test]
 fn the_published_tables_agree() {
-    for seed in 0..20 {
-        let (root, elements) = coil(seed, 5 + seed as usize);
+    for (seed, n_elements) in (0..20).zip(5..) {
+        let (root, elements) = coil(seed, n_elements);
         let strand = SuperHelix { root, elements: &elements };
         let n = elements.len();
         let s = [0.2, 0.55, 1.0].map(|part| part * strand.length());

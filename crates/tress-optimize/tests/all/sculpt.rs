@@ -9,12 +9,14 @@ use tress_optimize::{
 };
 
 /// Coils of 3 to 40 elements with 0 to 3 controls.
-fn groom(strands: impl IntoIterator<Item = u64>) -> (HelixGroom, Strands<Control>) {
+fn groom(strands: impl IntoIterator<Item = u32>) -> (HelixGroom, Strands<Control>) {
     let (mut roots, mut elements, mut controls) = (vec![], Strands::default(), Strands::default());
     for seed in strands {
-        let (root, strand) = coil(seed, 3 + (seed as usize * 7) % 38);
+        let (n, m) = (3 + seed * 7 % 38, seed % 4);
+        let seed = u64::from(seed);
+        let (root, strand) = coil(seed, n as usize);
         let helix = SuperHelix { root, elements: &strand };
-        controls.push(targets(&helix, seed as usize % 4, 0.3, seed)).expect("few points");
+        controls.push(targets(&helix, m as usize, 0.3, seed)).expect("few points");
         roots.push(root);
         elements.push(strand).expect("few points");
     }
@@ -37,9 +39,9 @@ fn a_strand_has_one_result_in_any_company_and_on_any_number_of_threads() {
     let (mut shuffled, mixed) = groom((0..150).map(|i| i * 77 % 150));
     threads(1).install(|| sculpt(&mut whole, &controls, &options)).expect("good controls");
     threads(5).install(|| sculpt(&mut shuffled, &mixed, &options)).expect("good controls");
-    for i in 0..150 {
-        assert_eq!(whole.strand(i).elements, alone[i].0, "strand {i} alone");
-        let elsewhere = (0..150).position(|j| j * 77 % 150 == i).expect("a permutation");
+    for (i, (alone, _)) in alone.iter().enumerate() {
+        assert_eq!(whole.strand(i).elements, alone, "strand {i} alone");
+        let elsewhere = (0..150).position(|j: usize| j * 77 % 150 == i).expect("a permutation");
         assert_eq!(whole.strand(i).elements, shuffled.strand(elsewhere).elements, "strand {i}");
     }
 }
