@@ -5,6 +5,7 @@
 mod fixtures;
 mod grooms;
 mod metric;
+mod pictures;
 mod process;
 mod suites;
 
@@ -17,6 +18,7 @@ fn main() -> ExitCode {
     let outcome = match task.as_str() {
         "bench" => suites::run(&rest),
         "fixtures" => fixtures::make(),
+        "pictures" => pictures::make(),
         other => Err(format!("no task named {other:?}; see cargo xtask help").into()),
     };
     match outcome {
