@@ -113,7 +113,7 @@ pub struct Refine {
 
 impl Default for Refine {
     fn default() -> Self {
-        Self { steps: 8, prior: 1e-2, lengths: true, root: true }
+        Self { steps: 8, prior: 1e-3, lengths: true, root: true }
     }
 }
 

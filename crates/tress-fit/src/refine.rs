@@ -2,13 +2,14 @@
 //!
 //! What is minimised is
 //!
-//! `sum_k |n_k|^2 + |r_tip|^2 + sum_j c_j |Omega_j - Omega_{j-1}|^2`, `c_j = w d_j^5 / h_j`:
+//! `sum_k |n_k|^2 + |r_tip|^2 + sum_j c_j |Omega_j - Omega_{j-1}|^2`:
 //!
 //! `n_k` is the part of `S(lambda_k) - p_k` across the curve, so that points slide along it and
 //! arc length is no hidden error; only the last point holds the tip. The prior ties the Darboux
-//! vectors of neighbours; `h_j` is the neighbours' mean length and `d_j` the distance of points
-//! there, which makes the weight `w` a pure number: 1 weighs the shift that a jump of curvature
-//! brings about from one point to the next as much as a point missed by that shift.
+//! vectors of neighbours. With `h` the neighbours' mean length and `d` the distance of points there,
+//! `c = w d^5 / h` for elements shorter than `d` and `w d^2 h^2` for longer ones, which makes the
+//! weight `w` a pure number: 1 weighs the shift that a jump of curvature brings about from one
+//! point to the next as much as a point missed by that shift, however finely elements are cut.
 //!
 //! # The solver
 //!
@@ -35,6 +36,7 @@ use tress_geometry::{Element, Frame};
 
 use crate::Refine;
 use crate::draft::Draft;
+use crate::measure::coil_radius;
 use motion::{Motion, gap, moved};
 use place::slide;
 use quadratic::{CurvatureGain, LengthGain, Quadratic, Transition};
@@ -97,6 +99,12 @@ const EASING: f64 = 0.1;
 /// When gaps are closed the cost may grow by this; more, and the chain has left the points.
 const CLOSED: f64 = 1.5;
 
+/// Elements that turn more than this, in radians, are eased in from the first attempt on.
+const SHORT_TURN: f64 = 2.0;
+
+/// A root mean square distance beyond this part of the coil radius may be a local minimum.
+const STUCK: f64 = 0.1;
+
 /// An element keeps at least and grows at most to these parts of its length in one step.
 const LENGTH_BOUNDS: (f64, f64) = (0.3, 2.5);
 
@@ -110,14 +118,18 @@ impl Refiner {
         settings: &Refine,
     ) -> f64 {
         let mut best = (f64::INFINITY, Draft::default());
-        for weights in ATTEMPTS {
+        let turning: f64 = draft.elements.iter().map(|e| e.length * e.curvature.length()).sum();
+        let easy = turning <= SHORT_TURN * draft.elements.len() as f64;
+        for weights in ATTEMPTS.into_iter().skip(usize::from(!easy)) {
             let mut attempt = draft.clone();
             let open = self.approach(points, &mut attempt, hold, settings, weights);
-            let closed = self.close(points, &mut attempt, hold, settings);
+            let closed = self.close(points, &mut attempt, hold, weights.1, settings);
             if closed < best.0 || best.1.elements.is_empty() {
                 best = (closed, attempt);
             }
-            if closed <= CLOSED * open + ROUNDING {
+            let stuck = STUCK * coil_radius(&draft.elements);
+            let near = stuck <= 0.0 || closed <= stuck * stuck * points.len() as f64;
+            if near && closed <= CLOSED * open + ROUNDING {
                 break;
             }
         }
@@ -230,8 +242,8 @@ impl Refiner {
         self.ties.push(0.0);
         for (pair, held) in draft.elements.windows(2).zip(held.windows(2)) {
             let both = pair[0].length + pair[1].length;
-            let d = both / f64::max(1.0, held[0] + held[1]);
-            self.ties.push(d.powi(5) / (0.5 * both));
+            let (h, d) = (0.5 * both, both / f64::max(1.0, held[0] + held[1]));
+            self.ties.push(if d < h { d * d * h * h } else { d.powi(5) / h });
         }
     }
 
