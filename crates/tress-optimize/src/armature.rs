@@ -42,7 +42,8 @@ impl Default for ArmatureOptions {
 ///
 /// // Two straight strands that hang side by side.
 /// let down = |x| Frame::along(DVec3::new(x, 0.0, 0.0), DVec3::NEG_Y).expect("a direction");
-/// let elements = Strands::from_counts([1, 1], vec![Element { length: 3.0, ..Element::default() }; 2])?;
+/// let straight = Element { length: 3.0, ..Element::default() };
+/// let elements = Strands::from_counts([1, 1], vec![straight; 2])?;
 /// let groom = HelixGroom::new(vec![down(-1.0), down(1.0)], elements)?;
 ///
 /// let one = Clustering { count: 1, ..Clustering::default() };

@@ -4,8 +4,8 @@
 //! another's ballast, and handed out in parts of fixed size. Neither changes a bit of a strand's
 //! result, since lanes do not know each other.
 //!
-//! A register is done when its slowest strand is. Most strands need a few walks and a few need many,
-//! so that all strands get a few, and those that are not done share registers anew.
+//! A register is done when its slowest strand is. Most strands need a few walks and a few need
+//! many, so that all strands get a few, and those that are not done share registers anew.
 
 use glam::DVec3;
 use pulp::{Arch, Simd, WithSimd};

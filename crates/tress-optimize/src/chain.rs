@@ -9,7 +9,8 @@
 //! element that holds the point has `P_k = F D(q, s)`. What Levenberg-Marquardt needs of `J` then
 //! are sums along the strand that know nothing of the points:
 //!
-//! `sum J_kj J_lj^T = sum M M^T + (sum M B^T) [S_l]x - [S_k]x (sum M B^T)^T - [S_k]x (sum B B^T) [S_l]x`
+//! `sum J_kj J_lj^T = U + V [S_l]x - [S_k]x V^T - [S_k]x W [S_l]x`,
+//! `U = sum M M^T`, `V = sum M B^T`, `W = sum B B^T`,
 //!
 //! so the cost of `J J^T` is that of one walk, `O(N + M^2)`, whatever the number `M` of points.
 //! Positions are relative to the root, where a strand's own size bounds the rounding.

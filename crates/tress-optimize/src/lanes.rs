@@ -1,8 +1,8 @@
 //! Numbers of several strands side by side: one SIMD register, or a single number on a machine
 //! that has none.
 //!
-//! The arithmetic of a lane does not know its neighbours: a strand's result is the same to the bit in
-//! any lane and beside any other strand. Machines with and without fused products and sums differ
+//! The arithmetic of a lane does not know its neighbours: a strand's result is the same to the bit
+//! in any lane and beside any other strand. Machines with and without fused products and sums differ
 //! in the last digits.
 //!
 //! Every function is inlined, because `pulp` compiles what is inlined into its dispatched function

@@ -1,8 +1,9 @@
 //! Levenberg-Marquardt for a register of strands, with a factorisation the size of the controls.
 //!
 //! In the scaled unknowns `y` (see [`chain`](crate::chain)) the energy is `|r|^2 + c |y|^2` with
-//! `3M` residuals `r_k = sqrt(w_k) (S_k - a_k)`. A step `d` solves `(J^T J + h I) d = -(J^T r + c y)`,
-//! `h = c + mu`; by Woodbury's identity, and without a difference of nearly equal numbers,
+//! `3M` residuals `r_k = sqrt(w_k) (S_k - a_k)`. A step `d` solves, with `h = c + mu`,
+//! `(J^T J + h I) d = -(J^T r + c y)`; by Woodbury's identity, and without a difference of nearly
+//! equal numbers,
 //!
 //! `d = -(c/h) y - J^T rho`, `(J J^T + h I) rho = r - (c/h) J y`:
 //!

@@ -10,7 +10,7 @@
 //! |---|---|
 //! | [`sculpt`], [`solve`] | a groom, or one strand, to its anchors |
 //! | [`Sculptor`] | the same again and again while a joint is dragged |
-//! | [`armature()`], [`Pose`], [`apply_pose`] | joints that move many strands, and the controls they make |
+//! | [`armature()`], [`Pose`], [`apply_pose`] | joints that move many strands |
 //! | [`SculptOptions`], [`Stiffness`] | what bending costs, and which solver |
 //! | [`Report`], [`Sculpted`] | what became of strands |
 //! | [`Objective`], [`GroomObjective`] | energy and gradient, for other optimisers |

@@ -6,13 +6,14 @@
 //! unknowns before an element add up to one twist `(b, m) = sum (B u, M u)` of all that lies
 //! beyond: a point `S` moves by `m + b x S`. To second order the loads `rho_k = w_k r_k` add
 //!
-//! `b^T T_j u_j`, `T_j = -[f]x M_j + N B_j`, `f = sum rho_k`, `N = sum [rho_k]x [S_k]x` (beyond `j`),
+//! `b^T T_j u_j`, `T_j = -[f]x M_j + N B_j`, `f = sum rho_k`, `N = sum [rho_k]x [S_k]x`,
 //!
-//! and for an element itself, to the order of its length, `u^T B_j^T T_j u / 2`. The energy of the
+//! (sums over the controls beyond `j`) and for an element itself, to the order of its length, `u^T B_j^T T_j u / 2`. The energy of the
 //! rest of the strand is therefore a quadratic form in the twist alone, `P` and `p`, and each
 //! element is eliminated in turn (Riccati's recursion, as in differential dynamic programming):
 //!
-//! `Q_uu = h + G^T P G + sym(B^T T)`, `Q_ux = G^T P + T^T`, `P <- P - Q_ux^T Q_uu^-1 Q_ux`, `G = (B, M)`.
+//! `Q_uu = h + G^T P G + sym(B^T T)`, `Q_ux = G^T P + (T^T, 0)`, `G = (B, M)`,
+//! `P <- P - Q_ux^T Q_uu^-1 Q_ux`.
 //!
 //! The step is Newton's (within the order of an element's own curvature), whatever the number of
 //! controls. Where some `Q_uu` is not positive the energy is not convex there, and there is none.

@@ -5,7 +5,8 @@
 //! is [CSE 15] with weights. The diagonal `W_j` is the weight of each component of `q`, made
 //! less towards the tip; with a [relative stiffness](Stiffness::Relative) it is also in proportion
 //! to the element's length (over the mean length), so that the sum is the elastic energy's integral
-//! and cutting an element in two changes nothing. The relative stiffness is in parts of the tip's mean *compliance* at rest,
+//! and cutting an element in two changes nothing. The relative stiffness is in parts of the tip's
+//! mean *compliance* at rest,
 //!
 //! `c = stiffness tr(J W^-1 J^T) / 3`, `J` the derivative of the tip,
 //!

@@ -184,3 +184,13 @@ fn every_pose_that_does_not_fit_is_refused() {
     let count = ClusterError::Count { clusters: 0, rows: 21 };
     assert_eq!(none, Err(PoseError::Clusters(count)));
 }
+
+#[test]
+fn the_pose_in_the_documentation_can_be_read() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/sculpt.md");
+    let page = std::fs::read_to_string(path).expect("the page is part of the project");
+    let block = page.lines().skip_while(|line| *line != "    (");
+    let text: Vec<&str> = block.take_while(|line| line.starts_with("    ")).collect();
+    let pose: Pose = ron::from_str(&text.join("\n")).expect("a pose");
+    assert_eq!((pose.groups.len(), pose.anchors.len(), pose.clusters.count), (2, 1, 8));
+}
