@@ -175,10 +175,18 @@ impl Refiner {
     }
 
     /// A last step that leaves no gaps; returns the cost.
-    fn close(&mut self, points: &[DVec3], draft: &mut Draft, hold: Hold, settings: &Refine) -> f64 {
-        let start = self.sweep_back(points, draft, hold, settings.prior, UNDAMPED, settings);
+    fn close(
+        &mut self,
+        points: &[DVec3],
+        draft: &mut Draft,
+        hold: Hold,
+        weight: f64,
+        settings: &Refine,
+    ) -> f64 {
+        let prior = weight * settings.prior;
+        let start = self.sweep_back(points, draft, hold, prior, UNDAMPED, settings);
         self.sweep_forth(draft, &start);
-        let cost = self.cost_of_trial(points, draft, hold, settings.prior);
+        let cost = self.cost_of_trial(points, draft, hold, prior);
         std::mem::swap(draft, &mut self.trial);
         cost
     }
