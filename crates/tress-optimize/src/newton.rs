@@ -8,9 +8,10 @@
 //!
 //! `b^T T_j u_j`, `T_j = -[f]x M_j + N B_j`, `f = sum rho_k`, `N = sum [rho_k]x [S_k]x`,
 //!
-//! (sums over the controls beyond `j`) and for an element itself, to the order of its length, `u^T B_j^T T_j u / 2`. The energy of the
-//! rest of the strand is therefore a quadratic form in the twist alone, `P` and `p`, and each
-//! element is eliminated in turn (Riccati's recursion, as in differential dynamic programming):
+//! (sums over the controls beyond `j`) and for an element itself, to the order of its length,
+//! `u^T B_j^T T_j u / 2`. The energy of the rest of the strand is therefore a quadratic form in the
+//! twist alone, `P` and `p`, and each element is eliminated in turn (Riccati's recursion, as in
+//! differential dynamic programming):
 //!
 //! `Q_uu = h + G^T P G + sym(B^T T)`, `Q_ux = G^T P + (T^T, 0)`, `G = (B, M)`,
 //! `P <- P - Q_ux^T Q_uu^-1 Q_ux`.
