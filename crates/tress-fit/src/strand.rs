@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 use tress_geometry::polyline::defect;
-use tress_geometry::{Element, Frame, SuperHelix};
+use tress_geometry::{Element, Frame, SuperHelix, align_frame};
 
 use crate::{Elements, FitOptions, KeptReason, Spline, direct, refined};
 
@@ -111,8 +111,10 @@ impl Normalized {
             length: element.length * self.size,
         };
         let position = self.origin + fit.root.position * self.size;
-        let root = Frame { position, axes: fit.root.axes };
-        let elements: Vec<Element> = fit.elements.iter().map(scale).collect();
+        let mut root = Frame { position, axes: fit.root.axes };
+        let mut elements: Vec<Element> = fit.elements.iter().map(scale).collect();
+        // What the frame is turned to about the tangent so far was chosen by axes of the world.
+        align_frame(&mut root, &mut elements);
         let mut along = 0.0;
         let arc_length = |&i: &usize| {
             // Rounding must not make a point precede the one before it.

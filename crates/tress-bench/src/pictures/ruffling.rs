@@ -22,7 +22,7 @@ pub(super) fn make() -> Outcome {
             sampled(&ruffle(&helices, &[0; 40], &options, 1)?.0)
         })
         .collect::<Outcome<_>>()?;
-    let frame = Frame::around(&grooms, View::ThreeQuarter, (440, 620), 0.035);
+    let frame = Frame::around(&grooms, View::Side, (440, 520), 0.035);
     let captions = ["as it is", "probability 0.05", "0.1", "0.25"];
     let panels: Vec<_> = grooms.iter().zip(captions).collect();
     frame.sheet("ruffle.png", 4, &panels)
