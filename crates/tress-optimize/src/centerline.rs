@@ -6,6 +6,9 @@
 //! back by sculpting: points a turn or more apart are drawn to where they are now, moved by what
 //! their centerline is off.
 
+use std::f64::consts::{PI, TAU};
+use std::ops::Range;
+
 use glam::DVec3;
 use rayon::prelude::*;
 use tress_analysis::smoothed;
@@ -14,7 +17,7 @@ use tress_geometry::{HelixGroom, Strands, SuperHelix};
 use crate::{Control, SculptError, SculptOptions, sculpt};
 
 /// Control points of a strand at most: more cost the cube of their number.
-const MOST_CONTROLS: usize = 10;
+const MOST_CONTROLS: f64 = 10.0;
 
 /// Rounds of drawing points: what a round leaves is a bend within a turn, and halves.
 const ROUNDS: usize = 3;
@@ -53,13 +56,13 @@ pub fn hold_centerlines(
         let (controls, strands) = (groom.len(), changed.len());
         return Err(SculptError::Strands { controls, strands });
     }
-    let lines: Vec<Vec<DVec3>> =
-        (0..groom.len())
-            .into_par_iter()
-            .map(|i| {
-                if groom.kept_polyline(i).is_some() { vec![] } else { centerline(&groom.strand(i)) }
-            })
-            .collect();
+    let lines: Vec<Line> = (0..groom.len())
+        .into_par_iter()
+        .map(|i| match groom.kept_polyline(i) {
+            Some(_) => Line::default(),
+            None => centerline(&groom.strand(i)),
+        })
+        .collect();
     let mut moved = 0;
     for _ in 0..ROUNDS {
         let controls: Vec<Vec<Control>> = (0..changed.len())
@@ -76,35 +79,44 @@ pub fn hold_centerlines(
 }
 
 /// Points of `strand` at joints a turn or more apart, drawn by what the centerline is off there.
-fn controls(strand: &SuperHelix<'_>, line: &[DVec3]) -> Vec<Control> {
+fn controls(strand: &SuperHelix<'_>, line: &Line) -> Vec<Control> {
     let now = centerline(strand);
-    if now.len() != line.len() || now.is_empty() {
+    if now.points.len() != line.points.len() || now.turns < 3.0 {
         return vec![];
     }
-    let turns: f64 = smoothed(strand.elements).iter().map(|element| element.turns()).sum();
-    #[expect(clippy::cast_possible_truncation, reason = "held below ten")]
-    #[expect(clippy::cast_sign_loss, reason = "turns are not negative")]
-    let n = (turns as usize).min(MOST_CONTROLS);
-    if turns < 3.0 {
+    let first = now.whole.start.max(line.whole.start);
+    let Some(reach) = now.whole.end.min(line.whole.end).checked_sub(first + 1) else {
         return vec![];
-    }
+    };
+    #[expect(clippy::cast_possible_truncation, reason = "held to ten")]
+    #[expect(clippy::cast_sign_loss, reason = "at least three")]
+    let n = now.turns.min(MOST_CONTROLS) as usize;
     let mut ends = vec![0.0];
     for element in strand.elements {
         ends.push(ends[ends.len() - 1] + element.length);
     }
     let joints: Vec<DVec3> = strand.joints().map(|frame| frame.position).collect();
-    (1..=n)
-        .map(|k| k * strand.elements.len() / n)
-        .filter(|&joint| 0 < joint)
-        .map(|joint| Control::new(ends[joint], joints[joint] + (line[joint] - now[joint])))
-        .collect()
+    let draw = |joint: usize| {
+        let off = line.points[joint] - now.points[joint];
+        Control::new(ends[joint], joints[joint] + off)
+    };
+    (1..=n).map(|k| first + k * reach / n).filter(|&joint| 0 < joint).map(draw).collect()
+}
+
+/// The line that a strand winds about.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Line {
+    /// Its place at each joint of the strand; none for a strand that does not turn.
+    points: Vec<DVec3>,
+    /// The joints that have half a turn on either side.
+    whole: Range<usize>,
+    /// Turns of the strand about it.
+    turns: f64,
 }
 
 /// The centerline at each joint: the mean of positions from half a turn before it to half a turn
 /// behind it; within half a turn of an end, over as much as lies on both sides.
-///
-/// Empty for a strand that does not turn.
-fn centerline(strand: &SuperHelix<'_>) -> Vec<DVec3> {
+fn centerline(strand: &SuperHelix<'_>) -> Line {
     // Samples within elements, each with the turning up to it.
     let smooth = smoothed(strand.elements);
     let mut angles = Vec::new();
@@ -124,22 +136,26 @@ fn centerline(strand: &SuperHelix<'_>) -> Vec<DVec3> {
         }
     }
     if angle == 0.0 || !angle.is_finite() {
-        return vec![];
+        return Line::default();
     }
     let mean = |at: f64| {
-        let half = std::f64::consts::PI.min(at).min(angle - at);
+        let half = PI.min(at).min(angle - at);
         let first = angles.partition_point(|&a| a < at - half);
         let end = angles.partition_point(|&a| a <= at + half).max(first + 1).min(angles.len());
         let first = first.min(end - 1);
         (sums[end] - sums[first]) / (weights[end] - weights[first])
     };
-    let mut joint_angle = 0.0;
-    let mut line = vec![mean(0.0)];
+    let mut joint_angles = vec![0.0];
     for (element, smooth) in strand.elements.iter().zip(&smooth) {
-        joint_angle += smooth.curvature.length() * element.length;
-        line.push(mean(joint_angle.min(angle)));
+        let before = joint_angles[joint_angles.len() - 1];
+        joint_angles.push(before + smooth.curvature.length() * element.length);
     }
-    line
+    Line {
+        whole: joint_angles.partition_point(|&a| a < PI)
+            ..joint_angles.partition_point(|&a| a <= angle - PI),
+        points: joint_angles.into_iter().map(|at| mean(at.min(angle))).collect(),
+        turns: angle / TAU,
+    }
 }
 
 #[cfg(test)]
