@@ -7,9 +7,9 @@
 //! `n_k` is the part of `S(lambda_k) - p_k` across the curve, so that points slide along it and
 //! arc length is no hidden error; only the last point holds the tip. The prior ties the Darboux
 //! vectors of neighbours. With `h` the neighbours' mean length and `d` the distance of points there,
-//! `c = w d^5 / h` for elements shorter than `d` and `w d^2 h^2` for longer ones, which makes the
-//! weight `w` a pure number: 1 weighs the shift that a jump of curvature brings about from one
-//! point to the next as much as a point missed by that shift, however finely elements are cut.
+//! `c = w d^5 / h`, which makes the weight `w` a pure number: 1 weighs the shift that a jump of
+//! curvature brings about from one point to the next as much as a point missed by that shift,
+//! however finely elements are cut.
 //!
 //! # The solver
 //!
@@ -91,16 +91,13 @@ const UNDAMPED: f64 = 1e-3;
 /// First and last weights of the prior, in units of the one asked for, one pair an attempt; from
 /// the first the weight falls by [`EASING`] a step. Nearly every strand needs the first attempt
 /// only. A stiff chain first finds the run of a strand and only then its turns one by one.
-const ATTEMPTS: [(f64, f64); 4] = [(1.0, 1.0), (1e2, 1.0), (1e4, 1.0), (1e4, 1e2)];
+const ATTEMPTS: [(f64, f64); 5] = [(1.0, 1.0), (1e2, 1.0), (10.0, 10.0), (1e2, 10.0), (1e4, 1e2)];
 
 /// See [`ATTEMPTS`].
 const EASING: f64 = 0.1;
 
 /// When gaps are closed the cost may grow by this; more, and the chain has left the points.
 const CLOSED: f64 = 1.5;
-
-/// Elements that turn more than this, in radians, are eased in from the first attempt on.
-const SHORT_TURN: f64 = 2.0;
 
 /// A root mean square distance beyond this part of the coil radius may be a local minimum.
 const STUCK: f64 = 0.1;
@@ -118,18 +115,14 @@ impl Refiner {
         settings: &Refine,
     ) -> f64 {
         let mut best = (f64::INFINITY, Draft::default());
-        let turning: f64 = draft.elements.iter().map(|e| e.length * e.curvature.length()).sum();
-        let easy = turning <= SHORT_TURN * draft.elements.len() as f64;
-        for weights in ATTEMPTS.into_iter().skip(usize::from(!easy)) {
+        for weights in ATTEMPTS {
             let mut attempt = draft.clone();
             let open = self.approach(points, &mut attempt, hold, settings, weights);
             let closed = self.close(points, &mut attempt, hold, weights.1, settings);
             if closed < best.0 || best.1.elements.is_empty() {
                 best = (closed, attempt);
             }
-            let stuck = STUCK * coil_radius(&draft.elements);
-            let near = stuck <= 0.0 || closed <= stuck * stuck * points.len() as f64;
-            if near && closed <= CLOSED * open + ROUNDING {
+            if is_near(closed, points.len(), draft) && closed <= CLOSED * open + ROUNDING {
                 break;
             }
         }
@@ -151,7 +144,12 @@ impl Refiner {
         let mut prior = first * settings.prior;
         let last = last * settings.prior;
         let mut cost = self.cost(points, draft, hold, prior);
-        let steps = if last < prior { 2 * settings.steps } else { settings.steps };
+        // Whoever is eased in has been in trouble, and gets time.
+        let (steps, worthwhile) = if last < prior {
+            (3 * settings.steps, 0.1 * WORTHWHILE)
+        } else {
+            (settings.steps, WORTHWHILE)
+        };
         for _ in 0..steps {
             let start = self.sweep_back(points, draft, hold, prior, damping, settings);
             self.step_joints(draft, &start);
@@ -160,7 +158,7 @@ impl Refiner {
                 damping *= 10.0;
                 continue;
             }
-            let arrived = cost - reached <= WORTHWHILE * cost && damping <= UNDAMPED;
+            let arrived = cost - reached <= worthwhile * cost && damping <= UNDAMPED;
             std::mem::swap(draft, &mut self.trial);
             cost = reached;
             damping *= 0.1;
@@ -251,7 +249,7 @@ impl Refiner {
         for (pair, held) in draft.elements.windows(2).zip(held.windows(2)) {
             let both = pair[0].length + pair[1].length;
             let (h, d) = (0.5 * both, both / f64::max(1.0, held[0] + held[1]));
-            self.ties.push(if d < h { d * d * h * h } else { d.powi(5) / h });
+            self.ties.push(d.powi(5) / h);
         }
     }
 
@@ -353,6 +351,12 @@ impl Refiner {
             self.trial.joints.push(frame);
         }
     }
+}
+
+/// Whether a cost is that of a chain that follows the points round their coil.
+pub(crate) fn is_near(cost: f64, n_points: usize, draft: &Draft) -> bool {
+    let stuck = STUCK * coil_radius(&draft.elements);
+    stuck <= 0.0 || cost <= stuck * stuck * n_points as f64
 }
 
 impl Gain {

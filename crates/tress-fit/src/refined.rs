@@ -10,7 +10,7 @@ use tress_geometry::polyline::place;
 
 use crate::draft::Draft;
 use crate::measure::coil_radius;
-use crate::refine::{Hold, Refiner};
+use crate::refine::{Hold, Refiner, is_near};
 use crate::{Elements, Floating, Refine, Spline, StrandFit, Tolerance, direct};
 
 /// Up to this angle a segment, in radians, the smooth curve serves as the draft: its error there
@@ -39,13 +39,7 @@ pub(crate) fn fit(
             draft
         }
         Elements::Count(n) => {
-            let mut draft = if spline.turning() < DENSE * (points.len() - 1) as f64 {
-                Draft::on(spline, &evenly(spline.length(), n))
-            } else {
-                let through = through_points(spline, settings, &mut refiner);
-                through.redrawn(&evenly(through.length(), n))
-            };
-            let cost = refiner.refine(points, &mut draft, Hold::Nearest, settings);
+            let (draft, cost) = counted(spline, n, settings, &mut refiner);
             if is_astray(cost, points.len()) {
                 return direct::evenly(spline, n, floating);
             }
@@ -62,6 +56,28 @@ pub(crate) fn fit(
     };
     let arc_lengths = draft.arc_lengths();
     StrandFit { root: draft.joints[0], elements: draft.elements, arc_lengths }
+}
+
+/// Exactly `n` elements, equal before they are refined, and what they cost.
+///
+/// Where that ends far from the points, elements that are drafted short where curvature changes
+/// are tried too.
+fn counted(spline: &Spline, n: usize, settings: &Refine, refiner: &mut Refiner) -> (Draft, f64) {
+    let points = spline.points();
+    let dense = spline.turning() < DENSE * (points.len() - 1) as f64;
+    let through = (!dense).then(|| through_points(spline, settings, refiner));
+    let mut draft = match &through {
+        Some(through) => through.redrawn(&evenly(through.length(), n)),
+        None => Draft::on(spline, &evenly(spline.length(), n)),
+    };
+    let cost = refiner.refine(points, &mut draft, Hold::Nearest, settings);
+    if is_near(cost, points.len(), &draft) {
+        return (draft, cost);
+    }
+    let through = through.unwrap_or_else(|| through_points(spline, settings, refiner));
+    let mut other = through.redrawn(&Spacing::of(&through).joints(n));
+    let other_cost = refiner.refine(points, &mut other, Hold::Nearest, settings);
+    if other_cost < cost { (other, other_cost) } else { (draft, cost) }
 }
 
 /// A mean square distance above this, for a strand of size 1, is no fit: the refinement went
