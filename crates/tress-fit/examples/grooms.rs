@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let prior: f64 = arguments.next().ok_or("which prior?")?.parse()?;
     let elements = if n == 0 { Elements::PerSegment } else { Elements::Count(n) };
     println!(
-        "| file | strands | points | read s | refined | fit s | elements | rms | greatest | length | kept |"
+        "| file | strands | points | read | refined | fit | elements | rms | most | length | kept |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
     for path in arguments {
