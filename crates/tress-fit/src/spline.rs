@@ -1,7 +1,7 @@
 //! The smooth curve through the points of a polyline, by arc length.
 //!
-//! Cubic Hermite segments, with derivatives and knots as the [`TangentRule`] says. Arc length comes from
-//! Gauss-Legendre quadrature of the speed and is inverted by Newton's method.
+//! Cubic Hermite segments, with derivatives and knots as the [`TangentRule`] says. Arc length comes
+//! from Gauss-Legendre quadrature of the speed and is inverted by Newton's method.
 
 use glam::DVec3;
 use tress_geometry::curves::catmull_rom_derivative;
