@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let report = &fitted.report;
             let name = path.rsplit('/').next().unwrap_or(&path);
             println!(
-                "| {name} | {} | {} | {read:.2} | {} | {:.3} | {} | {:.1e} | {:.1e} | {:.1e} | {:?} |",
+                "|{name}|{}|{}| {read:.1} | {} | {:.2} | {} | {:.1e} | {:.1e} | {:.1e} | {:?} |",
                 report.strands,
                 groom.strands().points().len(),
                 refine.is_some(),

@@ -7,9 +7,9 @@
 //! `n_k` is the part of `S(lambda_k) - p_k` across the curve, so that points slide along it and
 //! arc length is no hidden error; only the last point holds the tip. The prior ties the Darboux
 //! vectors of neighbours. With `h` the neighbours' mean length and `d` the distance of points
-//! there, `c = w d^5 / h`, which makes the weight `w` a pure number: 1 weighs the shift that a jump of
-//! curvature brings about from one point to the next as much as a point missed by that shift,
-//! however finely elements are cut.
+//! there, `c = w d^5 / h`, which makes the weight `w` a pure number: 1 weighs the shift that a
+//! jump of curvature brings about from one point to the next as much as a point missed by that
+//! shift, however finely elements are cut.
 //!
 //! # The solver
 //!
