@@ -1,5 +1,7 @@
 //! The measurements, one file a topic.
 
+mod droop;
+mod fitting;
 mod formats;
 mod pictures;
 mod sculpting;
@@ -17,7 +19,9 @@ struct Suite {
     run: fn(&mut Figures) -> Outcome,
 }
 
-const SUITES: [Suite; 3] = [
+const SUITES: [Suite; 5] = [
+    Suite { names: fitting::NAMES, run: fitting::run },
+    Suite { names: droop::NAMES, run: droop::run },
     Suite { names: formats::NAMES, run: formats::run },
     Suite { names: pictures::NAMES, run: pictures::run },
     Suite { names: sculpting::NAMES, run: sculpting::run },
