@@ -101,7 +101,9 @@ impl Part {
         let wants_places = !groom.point_attributes().is_empty();
         match fit_strand(points, options) {
             Ok(fit) => {
-                self.sums.add(Sums::of(&fit.super_helix(), points, &fit.arc_lengths));
+                if options.measure {
+                    self.sums.add(Sums::of(&fit.super_helix(), points, &fit.arc_lengths));
+                }
                 if wants_places {
                     let mut s = 0.0;
                     self.places.push((first_row, 0.0));

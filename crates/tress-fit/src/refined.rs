@@ -6,6 +6,7 @@
 //! Where points are dense the smooth curve through them is as good, and the first stage is left
 //! out.
 
+use glam::DVec3;
 use tress_geometry::polyline::place;
 
 use crate::draft::Draft;
@@ -33,15 +34,16 @@ pub(crate) fn fit(
         Elements::PerSegment => {
             let mut draft = Draft::on(spline, spline.arc_lengths());
             let cost = refiner.refine(points, &mut draft, Hold::Joints, settings);
-            if is_astray(cost, points.len()) {
-                return direct::per_segment(spline, floating);
+            if is_astray(cost, &draft, points) {
+                // Floating tangents pass through every point.
+                return direct::per_segment(spline, Floating::Tangents);
             }
             draft
         }
         Elements::Count(n) => {
             let (draft, cost) = counted(spline, n, settings, &mut refiner);
-            if is_astray(cost, points.len()) {
-                return direct::evenly(spline, n, floating);
+            if is_astray(cost, &draft, points) && direct::is_enough(spline, n) {
+                return nearest(draft, direct::evenly(spline, n, floating), points);
             }
             draft
         }
@@ -80,12 +82,31 @@ fn counted(spline: &Spline, n: usize, settings: &Refine, refiner: &mut Refiner) 
     if other_cost < cost { (other, other_cost) } else { (draft, cost) }
 }
 
-/// A mean square distance above this, for a strand of size 1, is no fit: the refinement went
-/// astray, and the arcs as they are serve better.
-const ASTRAY: f64 = 1e-2;
+/// A point that is missed by more than this part of a segment's or element's length is off its arc, not
+/// between bends that the arc averages: the refinement went astray, as it does on strands that
+/// turn sharply at points. A fit that is not astray misses a coil's points by a hundredth.
+const ASTRAY: f64 = 0.5;
 
-fn is_astray(cost: f64, n_points: usize) -> bool {
-    !cost.is_finite() || ASTRAY * (n_points as f64) < cost
+fn is_astray(cost: f64, draft: &Draft, points: &[DVec3]) -> bool {
+    let n = draft.elements.len().min(points.len() - 1);
+    let mean_length = draft.length() / n as f64;
+    !cost.is_finite() || ASTRAY * mean_length < draft.greatest_distance(points)
+}
+
+/// The draft or the arcs, whichever has the points nearer.
+fn nearest(draft: Draft, arcs: StrandFit, points: &[DVec3]) -> StrandFit {
+    let drafted = StrandFit {
+        root: draft.joints[0],
+        arc_lengths: draft.arc_lengths(),
+        elements: draft.elements,
+    };
+    let square = |fit: &StrandFit| -> f64 {
+        let strand = fit.super_helix();
+        let places = strand.frames_at(fit.arc_lengths.iter().copied());
+        let sum: f64 = places.zip(points).map(|(f, p)| f.position.distance_squared(*p)).sum();
+        if sum.is_finite() { sum } else { f64::INFINITY }
+    };
+    if square(&arcs) < square(&drafted) { arcs } else { drafted }
 }
 
 /// An element a segment, refined so far that others can be drafted on it.

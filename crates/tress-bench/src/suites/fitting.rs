@@ -1,9 +1,11 @@
 //! Polylines to super-helices.
 
+use std::f64::consts::TAU;
 use std::time::Instant;
 
 use tress::fit::{Elements, FitOptions, Fitted, Refine, fit};
-use tress::geometry::Groom;
+use tress::geometry::glam::DVec3;
+use tress::geometry::{Attributes, Element, Groom, Strands};
 use tress::io::WriteOptions;
 
 use crate::Outcome;
@@ -18,6 +20,9 @@ pub(crate) const NAMES: &[&str] = &[
     "fit_guides_greatest_n90",
     "fit_guides_length_n90",
     "fit_guides_direct_rms_n90",
+    "fit_helix_error",
+    "fit_doubling_n40",
+    "fit_doubling_ratio_n80",
     "fit_10k_seconds",
     "fit_10k_direct_seconds",
     "fit_10k_rms",
@@ -29,6 +34,8 @@ pub(crate) const NAMES: &[&str] = &[
 
 pub(crate) fn run(figures: &mut Figures) -> Outcome {
     guides(figures)?;
+    helices(figures)?;
+    doubling(figures)?;
     head(figures)?;
     linear(figures)
 }
@@ -80,14 +87,86 @@ fn head(figures: &mut Figures) -> Outcome {
         figures.add("memory_peak_ratio_fit", peak / bytes as f64, "", Bar::AtMost(3.0));
     }
     let groom = grooms::polylines(&input)?;
-    figures.add(
-        "fit_10k_rms",
-        fitted(&groom, 90, Some(Refine::default()))?.report.deviation.rms,
-        "unit",
-        Bar::None,
-    );
-    let direct = super::best_of(3, || fitted(&groom, 90, None))?;
+    let deviation = fitted(&groom, 90, Some(Refine::default()))?.report.deviation;
+    figures.add("fit_10k_rms", deviation.rms, "unit", Bar::None);
+    let elements = Elements::Count(90);
+    let options = FitOptions { elements, refine: None, measure: false, ..FitOptions::default() };
+    let direct = super::best_of(3, || fit(&groom, &options))?;
     figures.add("fit_10k_direct_seconds", direct, "s", Bar::AtMost(0.5));
+    Ok(())
+}
+
+/// Bytes of a groom's points and columns and of its fit, with a root, elements and joints a strand.
+fn in_memory(groom: &Groom, elements: usize) -> usize {
+    let (strands, points) = (groom.strands().len(), groom.strands().points().len());
+    let columns = |attributes: &Attributes| -> usize {
+        attributes.iter().map(|(_, column)| 8 * column.components()).sum()
+    };
+    let (a_point, a_strand) =
+        (columns(groom.point_attributes()), columns(groom.strand_attributes()));
+    let input = points * (24 + a_point) + strands * a_strand;
+    input + strands * (96 + a_strand + 32 * elements + (elements + 1) * a_point)
+}
+
+/// A coil whose axis bends and whose hand flips half way, fitted with twice as many elements each
+/// time: an error that falls to a quarter is of second order.
+fn doubling(figures: &mut Figures) -> Outcome {
+    let coil = flipped_coil()?;
+    let mut before: Option<f64> = None;
+    for n in [40, 80, 160, 320] {
+        // The prior is for noise, and there is none.
+        let refine = Refine { prior: 1e-6, ..Refine::default() };
+        let deviation = fitted(&coil, n, Some(refine))?.report.deviation;
+        figures.add(&format!("fit_doubling_n{n}"), deviation.greatest, "unit", Bar::None);
+        if let Some(before) = before {
+            let name = format!("fit_doubling_ratio_n{n}");
+            figures.add(&name, deviation.greatest / before, "", Bar::AtMost(0.26));
+        }
+        before = Some(deviation.greatest);
+    }
+    Ok(())
+}
+
+/// Radius 0.5, 12 turns, 60 points a turn.
+fn flipped_coil() -> Outcome<Groom> {
+    let turns = 12.0;
+    let points = (0..=720).map(|i| {
+        let s = f64::from(i) / 720.0;
+        // The hand goes from 1 to -1 over about a turn: the phase turns back.
+        let phase = -TAU * turns * ((9.0 * (s - 0.5)).cosh().ln() / 9.0);
+        let radius = 0.5 * (1.0 + 0.2 * (5.0 * s).sin());
+        let bend = 1.2 * s;
+        let (center, out) = (
+            DVec3::new(6.0 * bend.sin(), 6.0 * (bend.cos() - 1.0), 0.0),
+            DVec3::new(bend.sin(), bend.cos(), 0.0),
+        );
+        center + radius * (out * phase.cos() + DVec3::Z * phase.sin())
+    });
+    let mut strands = Strands::default();
+    strands.push(points)?;
+    Ok(Groom::new(strands))
+}
+
+/// Exact helices of five points a turn come back: the worst relative error of curvature and twist.
+fn helices(figures: &mut Figures) -> Outcome {
+    let mut worst: f64 = 0.0;
+    for pitch in [-3.0, -0.5, 0.1, 0.5, 1.0, 4.0] {
+        let radius = 0.57;
+        let points = (0..=50).map(|i| {
+            let angle = f64::from(i) * TAU / 5.0;
+            DVec3::new(radius * angle.cos(), radius * angle.sin(), pitch * angle / TAU)
+        });
+        let mut strands = Strands::default();
+        strands.push(points)?;
+        let fit = fit(&Groom::new(strands), &FitOptions::default())?;
+        let truth = Element::coil(radius, pitch);
+        for element in fit.helices.strand(0).elements {
+            let error =
+                (element.bending() - truth.bending()).hypot(element.twist() - truth.twist());
+            worst = worst.max(error / truth.curvature.length());
+        }
+    }
+    figures.add("fit_helix_error", worst, "", Bar::AtMost(1e-6));
     Ok(())
 }
 
