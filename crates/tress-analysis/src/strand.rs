@@ -2,7 +2,8 @@
 //!
 //! An element of curvatures `q` turns `|q| l / 2 pi` times about its axis with radius
 //! `R = k / |q|^2` [CSE 12]. Taken element by element these are noisy: the twist of a short, nearly
-//! straight arc is hardly observable, and its square enters `|q|`. So curvatures are first averaged,
+//! straight arc is hardly observable, and its square enters `|q|`. So curvatures are first
+//! averaged,
 //! in the material frame, over the turn about each element ([`smoothed`]): noise cancels there, a
 //! coil does not, and a strand that turns less than once is averaged as a whole.
 //!

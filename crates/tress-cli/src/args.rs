@@ -291,7 +291,7 @@ pub(crate) struct ArmatureArgs {
     #[arg(long, value_name = "K", default_value_t = 8)]
     pub(crate) clusters: usize,
     /// Joints of a cluster, evenly along its strands, the last at the tips
-    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = parse_joints)]
     pub(crate) joints: u32,
     /// How far strands are also moved by the clusters beside their own, 0 to 1
     #[arg(long, value_name = "B", default_value_t = 0.0)]
@@ -358,7 +358,7 @@ pub(crate) struct RenderArgs {
     /// Where the camera stands
     #[arg(long, value_enum, default_value_t = ViewArg::Front)]
     pub(crate) view: ViewArg,
-    /// Pixels, as one number or WIDTHxHEIGHT
+    /// Pixels, as one number or as in 1200x1600
     #[arg(long, default_value = "1600", value_name = "PIXELS", value_parser = parse_size)]
     pub(crate) size: (u32, u32),
     /// Colour strands by a quantity: radius, turns, length, handedness, curvature, twist, or the
@@ -520,6 +520,13 @@ impl FromStr for Keep {
             other => other,
         }
         .ok_or_else(|| "expected a number of elements, or a share from 0% to 100%".into())
+    }
+}
+
+fn parse_joints(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(joints) if (1..=64).contains(&joints) => Ok(joints),
+        _ => Err("expected a whole number from 1 to 64".into()),
     }
 }
 

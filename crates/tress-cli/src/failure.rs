@@ -34,7 +34,6 @@ impl<E: std::error::Error> From<E> for Failure {
     }
 }
 
-#[expect(clippy::print_stderr, reason = "errors are for the person at the terminal")]
 fn print_error(message: &str) {
     let red = Style::new().bold().fg_color(Some(AnsiColor::Red.into()));
     anstream::eprintln!("{red}error:{red:#} {message}");

@@ -1,7 +1,8 @@
 //! A groom between two grooms, in three spaces [CSE] Fig. 9.
 //!
 //! *Curvature*: curvatures and lengths are mixed element by element. A coil between two coils is a
-//! coil: bends open and close, nothing shrinks. *Darboux*: the world vectors `W = F q` are mixed and
+//! coil: bends open and close, nothing shrinks. *Darboux*: the world vectors `W = F q` are mixed
+//! and
 //! the chain is walked with them; *position*: points are mixed. Both of these let opposite bends
 //! cancel, which flattens coils half way; they are here to show it and for comparison.
 

@@ -1,6 +1,7 @@
 //! Recoil: tighter or looser, wider or narrower coils.
 //!
-//! An element is an arc of a helix of radius `R = k / |q|^2` that rises by `h = k0 / |q|^2` for each
+//! An element is an arc of a helix of radius `R = k / |q|^2` that rises by `h = k0 / |q|^2` for
+//! each
 //! radian it turns; its spatial frequency is `omega = 1 / h` [CSE 12]. A coil of radius `x R` and
 //! frequency `y omega` has
 //!

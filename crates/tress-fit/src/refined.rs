@@ -82,7 +82,8 @@ fn counted(spline: &Spline, n: usize, settings: &Refine, refiner: &mut Refiner) 
     if other_cost < cost { (other, other_cost) } else { (draft, cost) }
 }
 
-/// A point that is missed by more than this part of a segment's or element's length is off its arc, not
+/// A point that is missed by more than this part of a segment's or element's length is off its arc,
+/// not
 /// between bends that the arc averages: the refinement went astray, as it does on strands that
 /// turn sharply at points. A fit that is not astray misses a coil's points by a hundredth.
 const ASTRAY: f64 = 0.5;

@@ -127,7 +127,8 @@ fn transforms_of_all_ancestors_apply_in_their_order() {
                     uniform token type = \"linear\"
                     int[] curveVertexCounts = [1]
                     point3f[] points = [(1, 0, 0)]
-                    matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 3, 1))
+                    matrix4d xformOp:transform =
+                        ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 3, 1))
                     uniform token[] xformOpOrder = [\"xformOp:transform\"]
                 }
                 def BasisCurves \"alone\"

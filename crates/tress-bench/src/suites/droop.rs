@@ -1,7 +1,8 @@
 //! A real droop brought back from a few anchors a strand.
 //!
 //! Two frames of one simulation: the same strands before and after they sagged. The strands before
-//! are fitted and sculpted to M points of those after; what is measured is the distance of all points
+//! are fitted and sculpted to M points of those after; what is measured is the distance of all
+//! points
 //! to where they truly went.
 
 use tress::optimize::SculptOptions;

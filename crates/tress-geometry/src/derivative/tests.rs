@@ -49,7 +49,10 @@ proptest! {
     }
 
     #[test]
-    fn adjoint_is_the_transposed_jacobian((elements, s) in case(), r in prop::array::uniform3(-1.0..1.0)) {
+    fn adjoint_is_the_transposed_jacobian(
+        (elements, s) in case(),
+        r in prop::array::uniform3(-1.0..1.0),
+    ) {
         let r = DVec3::from_array(r);
         let n = elements.len();
         let strand = SuperHelix { root: Frame::IDENTITY, elements: &elements };

@@ -116,7 +116,8 @@ proptest! {
             prop_assert_eq!(&evaluate(kind, Wrap::Periodic, &points), &closed);
         }
         prop_assert_eq!(&evaluate(CurveType::Linear, Wrap::Nonperiodic, &points), &points);
-        let phantomless = evaluate(CurveType::Cubic(CubicBasis::CatmullRom), Wrap::Nonperiodic, &points);
+        let cubic = CurveType::Cubic(CubicBasis::CatmullRom);
+        let phantomless = evaluate(cubic, Wrap::Nonperiodic, &points);
         prop_assert_eq!(&phantomless[..], &points[1..n - 1]);
     }
 }
