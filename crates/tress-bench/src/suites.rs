@@ -42,7 +42,7 @@ pub(crate) fn run(args: &[String]) -> Outcome {
     let mut figures = Figures::against(baseline.as_deref())?;
     let wanted = |suite: &&Suite| {
         let begins = |name: &&str| suite.names.iter().any(|n| n.starts_with(name));
-        names.is_empty() || names.iter().any(|name| begins(name))
+        names.is_empty() || names.iter().any(begins)
     };
     for suite in SUITES.iter().filter(wanted) {
         (suite.run)(&mut figures)?;
