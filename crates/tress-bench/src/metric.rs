@@ -14,6 +14,8 @@ use crate::Outcome;
 pub(crate) enum Bar {
     /// The figure should be at most this.
     AtMost(f64),
+    /// The figure should be at least this.
+    AtLeast(f64),
     /// Nothing is asked of it.
     None,
 }
@@ -54,6 +56,7 @@ impl Figures {
     pub(crate) fn add(&mut self, name: &str, value: f64, unit: &str, bar: Bar) {
         let (met, asked) = match bar {
             Bar::AtMost(most) => (value <= most, format!(" at most {most}")),
+            Bar::AtLeast(least) => (least <= value, format!(" at least {least}")),
             Bar::None => (true, String::new()),
         };
         let verdict = match (asked.as_str(), met) {

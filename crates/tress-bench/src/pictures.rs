@@ -1,6 +1,7 @@
 //! The pictures of README and docs/, each made by the layers that the program is made of.
 
 mod blending;
+mod droop;
 mod posing;
 mod ruffling;
 
@@ -25,7 +26,8 @@ pub(crate) fn make() -> Outcome {
     demo()?;
     ruffling::make()?;
     blending::make()?;
-    posing::make()
+    posing::make()?;
+    droop::make()
 }
 
 /// The README's picture is the demo's.

@@ -111,10 +111,14 @@ impl Spline {
         for _ in 0..INVERSION_STEPS {
             let off = self.segment_length(i, u) - wanted;
             let speed = self.derivative(i, u).length();
-            if off.abs() <= 1e-13 * total || speed <= 1e-9 * total {
+            if speed <= 1e-9 * total {
                 break;
             }
             u = (u - off / speed).clamp(0.0, 1.0);
+            // What a step leaves is of the order of its square.
+            if off.abs() <= 1e-7 * total {
+                break;
+            }
         }
         let tangent = self.derivative(i, u).try_normalize();
         (self.position(i, u), tangent.unwrap_or_else(|| self.slopes[i].normalize_or(DVec3::X)))

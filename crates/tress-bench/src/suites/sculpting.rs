@@ -4,13 +4,15 @@ use std::time::Instant;
 
 use tress::geometry::glam::DVec3;
 use tress::geometry::{Element, Frame, HelixGroom, Strands, SuperHelix};
-use tress::optimize::{Control, Objective, SculptOptions, Sculptor, sculpt};
+use tress::optimize::{Control, GroomObjective, Objective, SculptOptions, Sculptor, sculpt};
 
 use crate::Outcome;
 use crate::metric::{Bar, Figures, say};
 
 pub(crate) const NAMES: &[&str] = &[
     "gradient_us",
+    "gradient_batched_us",
+    "gradient_vs_autodiff",
     "drag_p50_ms",
     "drag_p99_ms",
     "sculpt_head_seconds",
@@ -75,6 +77,32 @@ fn gradient(figures: &mut Figures) -> Outcome {
         best = best.min(started.elapsed().as_secs_f64() / 20.0);
     }
     figures.add("gradient_us", 1e6 * best, "us", Bar::AtMost(10.0));
+    against_autodiff(figures)
+}
+
+/// The same energy and gradient for 500 strands at once, and by JAX where Python has it.
+fn against_autodiff(figures: &mut Figures) -> Outcome {
+    let groom = groom(500, 90)?;
+    let controls = controls_of(&groom, 3, DVec3::splat(1.0))?;
+    let mut objective = GroomObjective::new(&groom, &controls, &SculptOptions::default())?;
+    let mut gradients = groom.elements().with_points(vec![DVec3::ZERO; 500 * 90])?;
+    let seconds = super::best_of(50, || {
+        Ok::<_, Box<dyn std::error::Error>>(objective.evaluate(groom.elements(), &mut gradients))
+    })?;
+    let ours = 1e6 * seconds / 500.0;
+    figures.add("gradient_batched_us", ours, "us", Bar::None);
+    let script = crate::grooms::root().join("crates/tress-optimize/benches/autodiff_jax.py");
+    let output = std::process::Command::new("python3").arg(script).output();
+    let theirs = output.ok().filter(|output| output.status.success());
+    let theirs = theirs
+        .and_then(|output| String::from_utf8_lossy(&output.stdout).trim().parse::<f64>().ok());
+    match theirs {
+        Some(theirs) => {
+            figures.add("gradient_autodiff_us", theirs, "us", Bar::None);
+            figures.add("gradient_vs_autodiff", theirs / ours, "x", Bar::AtLeast(100.0));
+        }
+        None => say("# Python has no jax: the gradient is not compared with automatic derivatives"),
+    }
     Ok(())
 }
 

@@ -36,13 +36,20 @@ pub(crate) fn run(args: &FitCommandArgs, everywhere: &Everywhere) -> Result<Repo
 
 /// A fit's report for programs.
 pub(crate) fn as_json(fit: &FitReport) -> Value {
+    let d = fit.deviation;
     let kept = fit.kept.iter().map(|(reason, n)| (reason.describe().to_owned(), json!(n)));
     json!({
         "strands": fit.strands,
         "elements": fit.elements,
-        "rms": fit.deviation.rms,
-        "greatest": fit.deviation.greatest,
-        "length_change": fit.deviation.length_change,
+        "rms": d.rms,
+        "greatest": d.greatest,
+        "rms_fit_to_input": d.rms_back,
+        "greatest_fit_to_input": d.greatest_back,
+        "rms_of_coil_radius": d.rms_of_radius,
+        "greatest_of_coil_radius": d.greatest_of_radius,
+        "length_change": d.length_change,
+        "arc_excess": d.arc_excess,
+        "greatest_curvature_jump": d.curvature_jump,
         "kept": kept.collect::<serde_json::Map<_, _>>(),
     })
 }
@@ -54,7 +61,13 @@ pub(crate) fn say_fit(curved: &Curved, report: &mut Report) {
     let deviation = fit.deviation;
     let (rms, greatest) = (short(deviation.rms), short(deviation.greatest));
     report.say("fitted", format!("{} strands", count(fit.strands)));
-    report.say("distance", format!("rms {rms}, greatest {greatest}"));
+    let of_radius = short(100.0 * deviation.rms_of_radius);
+    let coiled = if 0.0 < deviation.rms_of_radius {
+        format!("; {of_radius} % of the coil radius")
+    } else {
+        String::new()
+    };
+    report.say("distance", format!("rms {rms}{coiled}, greatest {greatest}"));
     let percent = short(100.0 * deviation.length_change);
     report.say("length change", format!("{percent} % at most"));
     for (reason, n) in &fit.kept {
