@@ -1,4 +1,4 @@
-//! A groom between two grooms, in three spaces [CSE] Fig. 9.
+//! A groom between two grooms, in three spaces [CSE Fig. 9].
 //!
 //! *Curvature*: curvatures and lengths are mixed element by element. A coil between two coils is a
 //! coil: bends open and close, nothing shrinks. *Darboux*: the world vectors `W = F q` are mixed

@@ -7,7 +7,7 @@
 //! | function | what it does | source |
 //! |---|---|---|
 //! | [`ruffle`] | swaps elements between strands of a group | [CSE 4.3.1] |
-//! | [`blend`], [`blend_positions`] | a groom between two grooms | [CSE] Fig. 9 |
+//! | [`blend`], [`blend_positions`] | a groom between two grooms | [CSE Fig. 9] |
 //! | [`recoil`] | tighter or looser, wider or narrower coils | [CSE 12] |
 //! | [`groups`] | which strands belong together | [CSE 5.3] |
 

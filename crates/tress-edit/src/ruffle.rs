@@ -20,9 +20,9 @@ use crate::strand_rng;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RuffleOptions {
-    /// Chance of an element to be replaced, `rho`, 0 to 1. Default 0.05, as in [CSE] Fig. 1.
+    /// Chance of an element to be replaced, `rho`, 0 to 1. Default 0.05, as in [CSE Fig. 1].
     pub probability: f64,
-    /// Elements at the root that are never replaced, `N_m`. Default 30, as in [CSE] Fig. 1, where
+    /// Elements at the root that are never replaced, `N_m`. Default 30, as in [CSE Fig. 1], where
     /// strands have 90.
     pub keep: usize,
     /// From the groom as it is (0) to the ruffled groom (1). Default 1.

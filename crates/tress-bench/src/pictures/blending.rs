@@ -1,4 +1,4 @@
-//! Half way between two shapes in three spaces, as in [CSE] Fig. 9.
+//! Half way between two shapes in three spaces, as in [CSE Fig. 9].
 
 use tress::edit::{BlendSpace, blend, blend_positions};
 use tress::fit::{Sampling, sample};

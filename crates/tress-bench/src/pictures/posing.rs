@@ -1,4 +1,4 @@
-//! Sculpting: how stiffness acts, as in [CSE] Fig. 10, and three recipes with their poses.
+//! Sculpting: how stiffness acts, as in [CSE Fig. 10], and three recipes with their poses.
 
 use ron::ser::PrettyConfig;
 use tress::fit::{Elements, FitOptions, fit};

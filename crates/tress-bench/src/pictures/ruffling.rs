@@ -1,4 +1,4 @@
-//! One wisp ruffled more and more, as in [CSE] Fig. 3.
+//! One wisp ruffled more and more, as in [CSE Fig. 3].
 
 use tress::edit::{RuffleOptions, ruffle};
 use tress::fit::{Elements, FitOptions, fit};

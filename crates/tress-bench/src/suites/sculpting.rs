@@ -84,7 +84,7 @@ fn gradient(figures: &mut Figures) -> Outcome {
 fn against_autodiff(figures: &mut Figures) -> Outcome {
     let groom = groom(500, 90)?;
     let controls = controls_of(&groom, 3, DVec3::splat(1.0))?;
-    let mut objective = GroomObjective::new(&groom, &controls, &SculptOptions::default())?;
+    let objective = GroomObjective::new(&groom, &controls, &SculptOptions::default())?;
     let mut gradients = groom.elements().with_points(vec![DVec3::ZERO; 500 * 90])?;
     let seconds = super::best_of(50, || {
         Ok::<_, Box<dyn std::error::Error>>(objective.evaluate(groom.elements(), &mut gradients))

@@ -23,7 +23,7 @@ use super::fit::as_json;
 /// Wisps of coily hair on a patch of scalp, in centimetres; made by `cargo xtask fixtures`.
 const PATCH: &[u8] = include_bytes!("../../../../fixtures/patch.hair");
 
-/// Elements a strand, as the ruffle of [CSE] Fig. 3 has it.
+/// Elements a strand, as the ruffle of [CSE Fig. 3] has it.
 const ELEMENTS: usize = 90;
 
 /// Wisps of the bundled groom.
