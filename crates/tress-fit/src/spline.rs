@@ -52,9 +52,12 @@ impl Spline {
     /// The curve through `points`, of which neighbours stand in different places.
     #[must_use]
     pub fn through(points: &[DVec3], rule: TangentRule) -> Self {
-        let alpha = rule.knot_exponent();
         let chords = points.windows(2).map(|ends| ends[0].distance(ends[1]));
-        let spans: Vec<f64> = chords.map(|chord| chord.powf(alpha)).collect();
+        let spans: Vec<f64> = match rule {
+            TangentRule::Uniform => chords.map(|_| 1.0).collect(),
+            TangentRule::Centripetal => chords.map(f64::sqrt).collect(),
+            TangentRule::Circle | TangentRule::Helix => chords.collect(),
+        };
         let slopes = (0..points.len()).map(|i| slope(points, &spans, i, rule)).collect();
         let mut spline = Self { points: points.to_vec(), slopes, spans, arc_lengths: vec![0.0] };
         spline.arc_lengths.reserve(points.len());
