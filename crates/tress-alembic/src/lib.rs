@@ -1,0 +1,1 @@
+//! Alembic curves written to Ogawa files.

@@ -1,0 +1,1 @@
+//! From guides to a head of coils: phase locking, period skipping, roots.

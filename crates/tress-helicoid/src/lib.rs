@@ -1,0 +1,1 @@
+//! Generalized helicoids: one hair that knows its neighbours.

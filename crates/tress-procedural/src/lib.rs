@@ -1,0 +1,1 @@
+//! Procedural grooms, forward and backward.

@@ -1,0 +1,1 @@
+//! Switchbacks: coils that change hands, exact and as published.
