@@ -44,11 +44,48 @@ const CHUNK: usize = 32;
 ///
 /// If the options cannot be followed, or ask for more elements than offsets can number.
 pub fn fit(groom: &Groom, options: &FitOptions) -> Result<Fitted, FitError> {
+    fit_with(groom, options, |_| ())
+}
+
+/// Like [`fit`], and says as it goes on how many more strands are done.
+///
+/// `done` is called by whichever thread did them, a few strands at a time; the numbers it gets add
+/// up to the strands of the groom.
+///
+/// ```
+/// use std::sync::atomic::{AtomicUsize, Ordering};
+/// use tress_fit::{FitOptions, fit_with};
+/// use tress_geometry::glam::DVec3;
+/// use tress_geometry::{Groom, Strands};
+///
+/// let groom = Groom::new(Strands::from_counts([2; 99], vec![DVec3::ZERO; 198])?);
+/// let total = AtomicUsize::new(0);
+/// fit_with(&groom, &FitOptions::default(), |more| {
+///     total.fetch_add(more, Ordering::Relaxed);
+/// })?;
+/// assert_eq!(total.into_inner(), 99);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// As [`fit`].
+pub fn fit_with(
+    groom: &Groom,
+    options: &FitOptions,
+    done: impl Fn(usize) + Sync,
+) -> Result<Fitted, FitError> {
     options.validate()?;
     let n = groom.strands().len();
     let parts: Vec<Part> = (0..n.div_ceil(CHUNK))
         .into_par_iter()
-        .map(|chunk| Part::fit(groom, chunk * CHUNK..n.min((chunk + 1) * CHUNK), options))
+        .map(|chunk| {
+            let strands = chunk * CHUNK..n.min((chunk + 1) * CHUNK);
+            let count = strands.len();
+            let part = Part::fit(groom, strands, options);
+            done(count);
+            part
+        })
         .collect();
     assemble(groom, parts)
 }

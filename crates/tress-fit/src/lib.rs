@@ -6,7 +6,7 @@
 //!
 //! | item | what it is |
 //! |---|---|
-//! | [`fit`], [`fit_strand`] | polylines to super-helices, by [`FitOptions`] |
+//! | [`fit`], [`fit_with`], [`fit_strand`] | polylines to super-helices, by [`FitOptions`] |
 //! | [`FitReport`] | how near the fit is, and which strands it passed by |
 //! | [`sample`] | super-helices to polylines, as dense as [`Sampling`] says |
 //! | [`HelixArc`] | the helix arc between two points with given tangents |
@@ -65,7 +65,7 @@ mod strand;
 mod tangents;
 
 pub use arc::HelixArc;
-pub use fit::{FitError, Fitted, fit};
+pub use fit::{FitError, Fitted, fit, fit_with};
 pub use floating_points::float_points;
 pub use floating_tangents::float_tangent;
 pub use measure::{Deviation, deviation};
