@@ -13,9 +13,28 @@ mod ruffle;
 mod sample;
 mod sculpt;
 
-use crate::args::{Command, Everywhere};
+use clap::Subcommand;
+
+use crate::args::Everywhere;
 use crate::failure::Failure;
 use crate::report::Report;
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Demo(demo::DemoArgs),
+    Info(info::InfoArgs),
+    Convert(convert::ConvertArgs),
+    Fit(fit::FitCommandArgs),
+    Sample(sample::SampleCommandArgs),
+    Ruffle(ruffle::RuffleArgs),
+    Blend(blend::BlendArgs),
+    Recoil(recoil::RecoilArgs),
+    Armature(armature::ArmatureArgs),
+    Sculpt(sculpt::SculptArgs),
+    Render(render::RenderArgs),
+    Merge(merge::MergeArgs),
+}
 
 /// Runs a command.
 pub(crate) fn run(command: &Command, everywhere: &Everywhere) -> Result<Report, Failure> {

@@ -7,6 +7,7 @@
 mod args;
 mod commands;
 mod failure;
+mod options;
 mod progress;
 mod report;
 mod source;

@@ -6,8 +6,9 @@ use tress::fit::{FitOptions, FitReport, Sampling};
 use tress::geometry::{Groom, HelixGroom};
 use tress::io::Model;
 
-use crate::args::{Everywhere, SamplingArgs};
+use crate::args::Everywhere;
 use crate::failure::Failure;
+use crate::options::SamplingArgs;
 use crate::progress::Progress;
 use crate::report::count;
 

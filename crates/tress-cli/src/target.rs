@@ -6,8 +6,9 @@ use std::path::Path;
 use tress::geometry::Groom;
 use tress::io::{Format, UsdCurves, WriteOptions};
 
-use crate::args::{Everywhere, FormatArgs, SamplingArgs, UsdCurvesArg};
+use crate::args::Everywhere;
 use crate::failure::Failure;
+use crate::options::{FormatArgs, SamplingArgs, UsdCurvesArg};
 use crate::progress::Progress;
 use crate::report::{Report, count};
 use crate::source::Curved;

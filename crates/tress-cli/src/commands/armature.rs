@@ -1,14 +1,43 @@
 //! `tress armature`: the rest pose of a groom.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use ron::ser::PrettyConfig;
 use tress::optimize::{ArmatureOptions, Clustering, Pose, armature};
 
-use crate::args::{ArmatureArgs, Everywhere};
+use crate::args::Everywhere;
 use crate::failure::Failure;
+use crate::options::FitArgs;
 use crate::progress::Progress;
 use crate::report::{Report, count};
 use crate::source::{self, Curved};
 use crate::target;
+
+/// Write the rest pose of a groom, to be changed and given to `tress sculpt`
+///
+/// Strands are clustered by root and tip; each cluster gets a chain of joints. Change `translate`,
+/// `rotate` (degrees) and `scale` of a joint in the file.
+#[derive(Args, Debug)]
+#[command(after_help = "Example: tress armature groom.obj pose.ron --clusters 12 --joints 3")]
+pub(crate) struct ArmatureArgs {
+    /// The groom
+    pub(crate) input: PathBuf,
+    /// The .ron file to write
+    pub(crate) output: PathBuf,
+    /// Clusters of strands
+    #[arg(long, value_name = "K", default_value_t = 8)]
+    pub(crate) clusters: usize,
+    /// Joints of a cluster, evenly along its strands, the last at the tips
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = parse_joints)]
+    pub(crate) joints: u32,
+    /// How far strands are also moved by the clusters beside their own, 0 to 1
+    #[arg(long, value_name = "B", default_value_t = 0.0)]
+    pub(crate) blend: f64,
+    /// How polylines are fitted
+    #[command(flatten)]
+    pub(crate) fit: FitArgs,
+}
 
 pub(crate) fn run(args: &ArmatureArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     if args.output.extension().is_none_or(|extension| extension != "ron") {
@@ -48,4 +77,11 @@ fn said(args: &ArmatureArgs, pose: &Pose) -> Report {
     let (file, clusters) = (args.output.display(), count(pose.groups.len()));
     report.say("wrote", format!("{file} ({clusters} clusters, {} joints)", count(joints)));
     report
+}
+
+fn parse_joints(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(joints) if (1..=64).contains(&joints) => Ok(joints),
+        _ => Err("expected a whole number from 1 to 64".into()),
+    }
 }

@@ -1,15 +1,41 @@
 //! `tress convert`: from one format to another.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use tress::fit::FitOptions;
 use tress::geometry::{Groom, HelixGroom, UpAxis};
 use tress::io::{Format, Model};
 
-use crate::args::{ConvertArgs, Everywhere, SpaceArgs};
+use crate::args::Everywhere;
 use crate::failure::Failure;
+use crate::options::{FormatArgs, SamplingArgs, SpaceArgs};
 use crate::progress::Progress;
 use crate::report::Report;
 use crate::source::{self, Curved};
 use crate::target;
+
+/// Convert between formats, and say what the target cannot carry
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  tress convert groom.usdc groom.hair
+  tress convert captured.data captured.tfx --points 32
+  tress convert scan.obj scan.usda --unit cm --up y --usd-curves catmull-rom")]
+pub(crate) struct ConvertArgs {
+    /// The groom
+    pub(crate) input: PathBuf,
+    /// The file to write
+    pub(crate) output: PathBuf,
+    /// How strands are made of super-helices
+    #[command(flatten)]
+    pub(crate) sampling: SamplingArgs,
+    /// What the groom's numbers mean
+    #[command(flatten)]
+    pub(crate) space: SpaceArgs,
+    /// Choices of formats
+    #[command(flatten)]
+    pub(crate) format: FormatArgs,
+}
 
 pub(crate) fn run(args: &ConvertArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     let format = target::check(&[&args.input], &args.output, everywhere)?;

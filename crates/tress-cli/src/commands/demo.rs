@@ -1,8 +1,9 @@
 //! `tress demo`: the tour on a bundled groom.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use tress::analysis::{GroomSummary, Quantity, QuantityValues, quantity, summarize};
 use tress::edit::{Grouping, RuffleOptions, RuffleReport, groups, ruffle};
 use tress::fit::{Elements, FitOptions, FitReport, Sampling, fit, sample};
@@ -13,7 +14,7 @@ use tress::view::{
     render_seen_by, sheet,
 };
 
-use crate::args::{DemoArgs, Everywhere};
+use crate::args::Everywhere;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::report::{Report, count, short, spread};
@@ -28,6 +29,18 @@ const ELEMENTS: usize = 90;
 
 /// Wisps of the bundled groom.
 const WISPS: usize = 30;
+
+/// The tour: a bundled groom read, fitted, ruffled, written and pictured
+///
+/// Leaves in DIR: the groom (patch.hair), its super-helices (patch.tress), the ruffled groom
+/// (ruffled.usda, ruffled.hair), pictures (before.png, after.png, before-after.png, radius.png) and
+/// a report (report.md).
+#[derive(Args, Debug)]
+pub(crate) struct DemoArgs {
+    /// Folder to leave everything in; made if it is not there
+    #[arg(default_value = "tress-demo")]
+    pub(crate) dir: PathBuf,
+}
 
 pub(crate) fn run(args: &DemoArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     let progress = Progress::new(6, everywhere);

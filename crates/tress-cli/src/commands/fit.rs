@@ -1,15 +1,37 @@
 //! `tress fit`: polylines to super-helices.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use serde_json::{Value, json};
 use tress::fit::FitReport;
 use tress::io::{Format, Model};
 
-use crate::args::{Everywhere, FitCommandArgs};
+use crate::args::Everywhere;
 use crate::failure::Failure;
+use crate::options::FitArgs;
 use crate::progress::Progress;
 use crate::report::{Report, count, short};
 use crate::source::{self, Curved};
 use crate::target;
+
+/// Fit super-helices to polylines; report how near they are
+#[derive(Args, Debug)]
+#[command(
+    name = "fit",
+    after_help = "Examples:
+  tress fit guides.obj guides.tress --elements 90
+  tress fit head.usdc head.tress --tolerance 2%"
+)]
+pub(crate) struct FitCommandArgs {
+    /// The groom
+    pub(crate) input: PathBuf,
+    /// The .tress file to write
+    pub(crate) output: PathBuf,
+    /// How polylines are fitted
+    #[command(flatten)]
+    pub(crate) fit: FitArgs,
+}
 
 pub(crate) fn run(args: &FitCommandArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     if target::check(&[&args.input], &args.output, everywhere)? != Format::Tress {

@@ -1,16 +1,27 @@
 //! `tress info`: a groom in numbers.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use serde_json::json;
 use tress::analysis::{Defects, GroomSummary, Quantiles, defects, summarize};
 use tress::fit::FitOptions;
 use tress::geometry::{Attributes, Column, Groom, HelixGroom, UpAxis};
 use tress::io::{Format, Model};
 
-use crate::args::{Everywhere, InfoArgs};
+use crate::args::Everywhere;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::report::{Report, count, short, spread};
 use crate::source::{self, Curved};
+
+/// Counts, lengths, turns, coil radius, handedness, unit and problems of a groom
+#[derive(Args, Debug)]
+#[command(after_help = "Example: tress info groom.usdc --json")]
+pub(crate) struct InfoArgs {
+    /// The groom
+    pub(crate) input: PathBuf,
+}
 
 pub(crate) fn run(args: &InfoArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     let progress = Progress::new(3, everywhere);

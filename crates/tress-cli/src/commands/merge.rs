@@ -2,14 +2,25 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use tress::io::Model;
 
-use crate::args::{Everywhere, FormatArgs, MergeArgs, SamplingArgs};
+use crate::args::Everywhere;
 use crate::failure::Failure;
+use crate::options::{FormatArgs, SamplingArgs};
 use crate::progress::Progress;
 use crate::report::Report;
 use crate::source::{self, Curved};
 use crate::target;
+
+/// Join the shares that `--shard` made, in order
+#[derive(Args, Debug)]
+#[command(after_help = "Example: tress merge part1.hair part2.hair whole.hair")]
+pub(crate) struct MergeArgs {
+    /// The parts, first to last, and then the file to write
+    #[arg(required = true, num_args = 2.., value_name = "PART... OUTPUT")]
+    pub(crate) files: Vec<PathBuf>,
+}
 
 pub(crate) fn run(args: &MergeArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     let Some((output, parts)) = args.files.split_last() else {

@@ -1,5 +1,8 @@
 //! `tress render`: a picture of a groom.
 
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
 use tress::analysis::{Quantity, QuantityValues, quantity};
 use tress::fit::FitOptions;
 use tress::geometry::{Column, Groom, HelixGroom};
@@ -8,14 +11,58 @@ use tress::view::{
     ColorMap, Coloring, RenderOptions, RgbImage, Scale, Size, StrandWidth, View, png, render,
 };
 
-use crate::args::{Everywhere, RenderArgs, SamplingArgs, ViewArg};
+use crate::args::Everywhere;
 use crate::failure::Failure;
+use crate::options::{SamplingArgs, SpaceArgs};
 use crate::progress::Progress;
 use crate::report::{Report, count};
 use crate::source::{self, Curved};
 use crate::target;
 
 use super::convert::in_space;
+
+/// Draw a picture of a groom
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  tress render head.usdc head.png --view three-quarter
+  tress render guides.obj radius.png --color-by radius --size 1200x1600")]
+pub(crate) struct RenderArgs {
+    /// The groom
+    pub(crate) input: PathBuf,
+    /// The .png file to write
+    pub(crate) output: PathBuf,
+    /// Where the camera stands
+    #[arg(long, value_enum, default_value_t = ViewArg::Front)]
+    pub(crate) view: ViewArg,
+    /// Pixels, as one number or as in 1200x1600
+    #[arg(long, default_value = "1600", value_name = "PIXELS", value_parser = parse_size)]
+    pub(crate) size: (u32, u32),
+    /// Colour strands by a quantity: radius, turns, length, handedness, curvature, twist, or the
+    /// name of an attribute
+    #[arg(long, value_name = "QUANTITY")]
+    pub(crate) color_by: Option<String>,
+    /// Hair diameter, in the groom's unit [default: the groom's own, or one that suits its size]
+    #[arg(long, value_name = "D")]
+    pub(crate) width: Option<f64>,
+    /// What the groom's numbers mean
+    #[command(flatten)]
+    pub(crate) space: SpaceArgs,
+}
+
+/// The views of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ViewArg {
+    /// From the front
+    Front,
+    /// From the side
+    Side,
+    /// From the back
+    Back,
+    /// From above
+    Top,
+    /// From the front, a little aside and above
+    ThreeQuarter,
+}
 
 pub(crate) fn run(args: &RenderArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     if args.output.extension().is_none_or(|extension| extension != "png") {
@@ -202,5 +249,25 @@ fn view(view: ViewArg) -> View {
         ViewArg::Back => View::Back,
         ViewArg::Top => View::Top,
         ViewArg::ThreeQuarter => View::ThreeQuarter,
+    }
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let (width, height) = text.split_once('x').unwrap_or((text, text));
+    match (width.parse(), height.parse()) {
+        (Ok(w), Ok(h)) if (1..=16384).contains(&w) && (1..=16384).contains(&h) => Ok((w, h)),
+        _ => Err("expected pixels from 1 to 16384, as in 1600 or 1200x1600".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_one_number_or_two() {
+        assert_eq!(parse_size("1200x1600"), Ok((1200, 1600)));
+        assert_eq!(parse_size("800"), Ok((800, 800)));
+        assert!(parse_size("0").is_err() && parse_size("800x").is_err());
     }
 }

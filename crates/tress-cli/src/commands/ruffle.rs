@@ -1,11 +1,16 @@
 //! `tress ruffle`: frizz made of the groom's own curls.
 
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::Args;
 use tress::analysis::Quantiles;
-use tress::edit::{RuffleOptions, groups, ruffle};
+use tress::edit::{Grouping, RuffleOptions, groups, ruffle};
 use tress::geometry::HelixGroom;
 
-use crate::args::{Everywhere, Keep, RuffleArgs};
+use crate::args::Everywhere;
 use crate::failure::Failure;
+use crate::options::{RoadArgs, parse_grouping};
 use crate::progress::Progress;
 use crate::report::{Report, count};
 use crate::source::{self, Curved};
@@ -13,13 +18,67 @@ use crate::target;
 
 use super::fit::say_fit;
 
+/// Exchange elements between strands of a group: frizz made of the groom's own curls
+///
+/// Beyond the elements kept at the root, each element of a strand is replaced, with the given
+/// probability, by the element of the same index of a random strand of its group.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  tress ruffle guides.obj ruffled.obj --elements 90 --probability 0.05 --keep 30
+  tress ruffle head.usdc head.usda --groups clusters:40 --blend 0.5")]
+pub(crate) struct RuffleArgs {
+    /// The groom
+    pub(crate) input: PathBuf,
+    /// The file to write
+    pub(crate) output: PathBuf,
+    /// Chance of an element to be replaced, 0 to 1
+    #[arg(long, value_name = "P", default_value_t = 0.05, allow_negative_numbers = true)]
+    pub(crate) probability: f64,
+    /// Elements at the root that stay: a number, or a share of the strand as in 33%
+    #[arg(long, value_name = "N", default_value = "33%")]
+    pub(crate) keep: Keep,
+    /// From the groom as it is (0) to the ruffled groom (1)
+    #[arg(long, value_name = "T", default_value_t = 1.0, allow_negative_numbers = true)]
+    pub(crate) blend: f64,
+    /// Who exchanges with whom: `whole`, the name of a strand attribute, or `clusters:K`
+    #[arg(long, value_name = "G", default_value = "whole", value_parser = parse_grouping)]
+    pub(crate) groups: Grouping,
+    /// How polylines come and go
+    #[command(flatten)]
+    pub(crate) road: RoadArgs,
+}
+
+/// Elements at the root that stay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Keep {
+    /// So many.
+    Count(usize),
+    /// This share of the elements of a typical strand.
+    Share(f64),
+}
+
+impl FromStr for Keep {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        let keep = match text.strip_suffix('%') {
+            Some(percent) => percent.parse().ok().map(|p: f64| Self::Share(p / 100.0)),
+            None => text.parse().ok().map(Self::Count),
+        };
+        match keep {
+            Some(Self::Share(share)) if !(0.0..=1.0).contains(&share) => None,
+            other => other,
+        }
+        .ok_or_else(|| "expected a number of elements, or a share from 0% to 100%".into())
+    }
+}
+
 pub(crate) fn run(args: &RuffleArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     target::check(&[&args.input], &args.output, everywhere)?;
     let progress = Progress::new(5, everywhere);
     let mut report = Report::default();
     report.set("input", &args.input);
     let model = source::read(&args.input, &progress)?;
-    let mut curved = Curved::new(model, &args.fit.options(), &progress)?;
+    let mut curved = Curved::new(model, &args.road.fit.options(), &progress)?;
     say_fit(&curved, &mut report);
 
     progress.stage("ruffling");
@@ -48,8 +107,15 @@ pub(crate) fn run(args: &RuffleArgs, everywhere: &Everywhere) -> Result<Report, 
         report.say("unequal", "strands differ in elements; each draws from those as long");
     }
     let curved = curved.share(everywhere);
-    let sampling = &args.sampling;
-    target::write_curved(&args.output, &curved, sampling, &args.format, &progress, &mut report)?;
+    let sampling = &args.road.sampling;
+    target::write_curved(
+        &args.output,
+        &curved,
+        sampling,
+        &args.road.format,
+        &progress,
+        &mut report,
+    )?;
     Ok(report)
 }
 
@@ -65,5 +131,17 @@ fn elements_kept(helices: &HelixGroom, keep: Keep) -> usize {
             let n = (share * median).round() as usize;
             n
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_kept_is_a_number_or_a_share() {
+        assert_eq!("33%".parse::<Keep>(), Ok(Keep::Share(0.33)));
+        assert_eq!("30".parse::<Keep>(), Ok(Keep::Count(30)));
+        assert!("101%".parse::<Keep>().is_err() && "-3".parse::<Keep>().is_err());
     }
 }

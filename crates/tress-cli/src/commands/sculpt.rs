@@ -2,19 +2,59 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::{Args, ValueEnum};
 use serde_json::json;
 use tress::optimize::{
     Adam, Pose, SculptOptions, Sculpted, Solver, Stiffness, Stop, apply_pose, sculpt,
 };
 
-use crate::args::{Everywhere, SculptArgs, SolverArg};
+use crate::args::Everywhere;
 use crate::failure::Failure;
+use crate::options::RoadArgs;
 use crate::progress::Progress;
 use crate::report::{Report, count, short};
 use crate::source::{self, Curved};
 use crate::target;
+
+/// Move strands to where a pose puts them, changing their curvatures as little as possible
+///
+/// Lengths of strands do not change.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  tress armature groom.obj pose.ron
+  tress sculpt groom.obj posed.obj --pose pose.ron --stiffness 0.001")]
+pub(crate) struct SculptArgs {
+    /// The groom
+    pub(crate) input: PathBuf,
+    /// The file to write
+    pub(crate) output: PathBuf,
+    /// The pose, as `tress armature` writes it
+    #[arg(long, value_name = "POSE.ron")]
+    pub(crate) pose: PathBuf,
+    /// What bending costs, whatever the unit: 0 meets every anchor, 1 hardly bends
+    #[arg(long, value_name = "C", conflicts_with = "c", allow_negative_numbers = true)]
+    pub(crate) stiffness: Option<f64>,
+    /// What bending costs as the published c, in the fourth power of the groom's unit
+    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    pub(crate) c: Option<f64>,
+    /// How the least energy is found
+    #[arg(long, value_enum, default_value_t = SolverArg::Lm)]
+    pub(crate) solver: SolverArg,
+    /// How polylines come and go
+    #[command(flatten)]
+    pub(crate) road: RoadArgs,
+}
+
+/// How the least energy is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SolverArg {
+    /// Levenberg-Marquardt: tens of steps
+    Lm,
+    /// Adam as published: thousands of steps, for comparison
+    Adam,
+}
 
 pub(crate) fn run(args: &SculptArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     target::check(&[&args.input], &args.output, everywhere)?;
@@ -24,7 +64,7 @@ pub(crate) fn run(args: &SculptArgs, everywhere: &Everywhere) -> Result<Report, 
     report.set("input", &args.input);
     report.set("pose", &args.pose);
     let model = source::read(&args.input, &progress)?;
-    let mut curved = Curved::new(model, &args.fit.options(), &progress)?;
+    let mut curved = Curved::new(model, &args.road.fit.options(), &progress)?;
     progress.stage("posing");
     let controls = apply_pose(&curved.helices, &pose)
         .map_err(|error| Failure::Failed(format!("{}: {error}", args.pose.display())))?;
@@ -32,8 +72,15 @@ pub(crate) fn run(args: &SculptArgs, everywhere: &Everywhere) -> Result<Report, 
     let sculpted = sculpt(&mut curved.helices, &controls, &options(args))?;
     say_sculpted(&sculpted, &mut report);
     let curved = curved.share(everywhere);
-    let sampling = &args.sampling;
-    target::write_curved(&args.output, &curved, sampling, &args.format, &progress, &mut report)?;
+    let sampling = &args.road.sampling;
+    target::write_curved(
+        &args.output,
+        &curved,
+        sampling,
+        &args.road.format,
+        &progress,
+        &mut report,
+    )?;
     Ok(report)
 }
 

@@ -1,74 +1,16 @@
 //! The program as its users meet it: exit status, what is printed where, files.
 
+mod bench;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 
 use serde_json::Value;
 use tress::geometry::glam::DVec3;
 use tress::geometry::{Groom, Strands};
-use tress::io::{Model, WriteOptions};
-use tress_fixtures::{PatchOptions, coily_patch};
+use tress::io::Model;
 
-/// A folder with a groom in it, gone when the test ends.
-struct Bench {
-    folder: tempfile::TempDir,
-}
-
-impl Bench {
-    fn new() -> Self {
-        let folder = tempfile::tempdir().expect("a folder for temporary files");
-        let options = PatchOptions { wisps: 4, strands_per_wisp: 5, ..PatchOptions::default() };
-        let bench = Self { folder };
-        bench.write("groom.obj", &coily_patch(&options, 1));
-        bench
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn write(&self, name: &str, groom: &Groom) {
-        tress::io::write(self.path(name), groom, &WriteOptions::default()).expect("a good groom");
-    }
-
-    fn groom(&self, name: &str) -> Groom {
-        match tress::io::read(self.path(name)).expect("a readable file") {
-            Model::Polylines(groom) => groom,
-            Model::Helices(_) => panic!("{name} holds super-helices"),
-        }
-    }
-
-    /// Runs `tress` in the folder.
-    fn run(&self, line: &str) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_tress"))
-            .args(line.split_whitespace())
-            .current_dir(self.folder.path())
-            .output()
-            .expect("the program starts")
-    }
-
-    /// Runs `tress`, which must succeed without a word on standard error.
-    fn done(&self, line: &str) -> String {
-        let output = self.run(line);
-        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.success() && errors.is_empty(), "tress {line}: {errors}");
-        String::from_utf8(output.stdout).expect("reports are text")
-    }
-
-    /// Runs `tress`, which must fail with this status and one line on standard error.
-    fn fails(&self, line: &str, status: i32) -> String {
-        let output = self.run(line);
-        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(status), "tress {line}: {errors}");
-        assert!(output.stdout.is_empty(), "tress {line} printed a report although it failed");
-        assert!(!errors.contains("panicked"), "tress {line}: {errors}");
-        if status == 1 {
-            assert_eq!(errors.trim_end().lines().count(), 1, "tress {line}: {errors}");
-        }
-        errors
-    }
-}
+use crate::bench::Bench;
 
 fn bytes(path: &Path) -> Vec<u8> {
     fs::read(path).expect("the file was written")
@@ -206,7 +148,7 @@ fn mistakes_are_told_in_one_line_and_leave_files_alone() {
         assert!(errors.contains(word), "tress {line}: {word:?} is missing in:\n{errors}");
     }
     assert_eq!(bytes(&bench.path("old.hair")), b"old");
-    let made: Vec<_> = fs::read_dir(bench.folder.path())
+    let made: Vec<_> = fs::read_dir(bench.path(""))
         .expect("the folder is there")
         .map(|entry| entry.expect("an entry").file_name().into_string().expect("a plain name"))
         .collect();
