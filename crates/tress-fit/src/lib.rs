@@ -11,6 +11,7 @@
 //! | [`sample`] | super-helices to polylines, as dense as [`Sampling`] says |
 //! | [`HelixArc`] | the helix arc between two points with given tangents |
 //! | [`float_points`], [`float_tangent`] | what makes such an arc possible |
+//! | [`centerline`], [`Centerline`] | the line that a strand coils about, and the strand seen from it |
 //! | [`Spline`] | the smooth curve through a polyline's points |
 //!
 //! The mathematics is that of [CSE 3.5] and of Derouet-Jourdan, Bertails-Descoubes and Thollot,
@@ -48,6 +49,7 @@
 //! ```
 
 mod arc;
+mod centerline;
 mod columns;
 mod direct;
 mod draft;
@@ -65,6 +67,7 @@ mod strand;
 mod tangents;
 
 pub use arc::HelixArc;
+pub use centerline::{Centerline, centerline, fourier_centerline, rotation_minimizing_frames};
 pub use fit::{FitError, Fitted, fit, fit_with};
 pub use floating_points::float_points;
 pub use floating_tangents::float_tangent;
