@@ -1,6 +1,7 @@
 //! USD `BasisCurves`: `.usda` (text), `.usdc` (binary), `.usd` (either; the contents tell).
 //!
-//! Reading goes through the openusd crate, which composes the stage: sublayers, references,
+//! Reading goes through the openusd crate (feature `usd` of this crate, without which USD files are
+//! an error that says so), which composes the stage: sublayers, references,
 //! payloads, variants and instances count. Every `BasisCurves` prim that is active and defined is
 //! read, in the order of traversal, invisible ones too; where there are several, the strand column
 //! `group` tells which prim a strand is from. Points come out *on* the curves: those of
@@ -45,29 +46,24 @@
 //! # Broken files
 //!
 //! openusd trusts the counts and offsets of binary files, so every layer is checked before it sees
-//! it (see `usd/crate_file.rs`), and text is held to a depth of nesting that its recursive parser
+//! it (see `usd/stage/crate_file.rs`), and text is held to a depth of nesting that its recursive parser
 //! survives. What indexing errors are left in it end as an error, not as a panic of the caller.
 
-mod crate_file;
-mod curves;
-mod layers;
-mod transform;
-mod values;
+#[cfg_attr(not(feature = "usd"), path = "usd/no_stage.rs")]
+mod stage;
 mod writer;
 
 use std::io::Write;
 use std::path::Path;
 
-use openusd::{sdf, usd};
-use tress_geometry::{Groom, UpAxis};
+use tress_geometry::Groom;
 
-use crate::basis_curves::join;
-use crate::foreign::{no_panic, one_line};
-use crate::{EncodeError, ParseError, Place, Problem, WriteOptions};
+use crate::{EncodeError, ParseError, WriteOptions};
 
 /// Reads the curves of a stage.
 ///
 /// ```
+/// # #[cfg(feature = "usd")] {
 /// use glam::DVec3;
 /// use tress_geometry::UpAxis;
 ///
@@ -93,33 +89,16 @@ use crate::{EncodeError, ParseError, Place, Problem, WriteOptions};
 /// let groom = tress_io::usd::read(&path)?;
 /// assert_eq!((groom.unit, groom.up), (Some(0.01), Some(UpAxis::Z)));
 /// assert_eq!(groom.strands().points()[1], DVec3::new(5.0, 0.0, 1.0));
+/// # }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
 ///
-/// If the file cannot be read, is not a USD layer, or holds curves whose counts do not match. A
+/// If the file cannot be read, is not a USD layer, the feature `usd` is off, or holds curves whose counts do not match. A
 /// stage without curves is a groom without strands.
 pub fn read(path: &Path) -> Result<Groom, ParseError> {
-    layers::check_root(path)?;
-    no_panic("the USD library", || {
-        let stage = layers::open(path)?;
-        let mut prims = Vec::new();
-        stage
-            .traverse(usd::PrimPredicate::DEFAULT_PROXIES, |path| prims.push(path.clone()))
-            .map_err(|error| unreadable(Place::File, &error))?;
-        let mut parts = Vec::new();
-        for path in &prims {
-            let prim = stage.prim(path);
-            let type_name = prim.type_name().map_err(|e| unreadable(part(path), &e))?;
-            if type_name.is_some_and(|name| name.as_str() == "BasisCurves") {
-                parts.push(curves::read(&prim)?);
-            }
-        }
-        let groom =
-            join(parts).map_err(|error| Problem::Unsupported(error.to_string()).at(Place::File))?;
-        Ok(groom.in_space(unit(&stage), up_axis(&stage)))
-    })
+    stage::read(path)
 }
 
 /// Writes a groom as `.usda`.
@@ -146,27 +125,4 @@ pub fn write(
     out: &mut impl Write,
 ) -> Result<(), EncodeError> {
     writer::write(groom, options.usd_curves, out)
-}
-
-fn unit(stage: &usd::Stage) -> Option<f64> {
-    let value = stage.stage_metadata("metersPerUnit").ok()??;
-    values::scalar(&value).filter(|metres| 0.0 < *metres && metres.is_finite())
-}
-
-fn up_axis(stage: &usd::Stage) -> Option<UpAxis> {
-    match stage.stage_metadata("upAxis").ok()?? {
-        sdf::Value::Token(axis) if axis == "Y" => Some(UpAxis::Y),
-        sdf::Value::Token(axis) if axis == "Z" => Some(UpAxis::Z),
-        _ => None,
-    }
-}
-
-/// The place of a prim or of a property.
-fn part(path: &sdf::Path) -> Place {
-    Place::Part(path.as_str().to_owned())
-}
-
-/// What openusd said.
-fn unreadable(place: Place, error: &impl std::fmt::Display) -> ParseError {
-    Problem::Unsupported(one_line(&format!("{error:#}"))).at(place)
 }
