@@ -62,13 +62,28 @@ pub fn centerline(points: &[DVec3]) -> Result<Centerline, Defect> {
     if let Some(defect) = polyline::defect(points) {
         return Err(defect);
     }
-    Ok(match period::coil_period(points) {
-        Some(period) => {
-            let turns = (points.len() - 1) as f64 / period;
-            Centerline::through(&harmonic::windowed(points, turns), turns)
+    let turns =
+        period::coil_period(points).map_or(0.0, |period| (points.len() - 1) as f64 / period);
+    centerline_of_turns(points, turns)
+}
+
+/// The centerline of a strand whose number of turns is known: that of another frame of an animation.
+///
+/// Turns that are not a positive number make the strand its own centerline.
+///
+/// # Errors
+///
+/// As [`centerline`].
+pub fn centerline_of_turns(points: &[DVec3], turns: f64) -> Result<Centerline, Defect> {
+    match polyline::defect(points) {
+        Some(defect) => Err(defect),
+        None if 0.0 < turns && turns.is_finite() => {
+            // A turn takes a point at least: more would be windows without points.
+            let turns = turns.min(points.len() as f64);
+            Ok(Centerline::through(&harmonic::windowed(points, turns), turns))
         }
-        None => Centerline::through(points, 0.0),
-    })
+        None => Ok(Centerline::through(points, 0.0)),
+    }
 }
 
 /// The centerline of [CC 3.2.1]: the strand's steps, without all but the three lowest coefficients

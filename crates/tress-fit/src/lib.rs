@@ -12,6 +12,7 @@
 //! | [`HelixArc`] | the helix arc between two points with given tangents |
 //! | [`float_points`], [`float_tangent`] | what makes such an arc possible |
 //! | [`centerline`], [`Centerline`] | the line that a strand coils about, and the strand seen from it |
+//! | [`Spectra`] | a library of coils, as spectra of their offsets from their centerlines |
 //! | [`Spline`] | the smooth curve through a polyline's points |
 //!
 //! The mathematics is that of [CSE 3.5] and of Derouet-Jourdan, Bertails-Descoubes and Thollot,
@@ -62,12 +63,15 @@ mod refine;
 mod refined;
 mod report;
 mod sample;
+mod spectra;
 mod spline;
 mod strand;
 mod tangents;
 
 pub use arc::HelixArc;
-pub use centerline::{Centerline, centerline, fourier_centerline, rotation_minimizing_frames};
+pub use centerline::{
+    Centerline, centerline, centerline_of_turns, fourier_centerline, rotation_minimizing_frames,
+};
 pub use fit::{FitError, Fitted, fit, fit_with};
 pub use floating_points::float_points;
 pub use floating_tangents::float_tangent;
@@ -77,5 +81,6 @@ pub use options::{
 };
 pub use report::{FitReport, KeptReason};
 pub use sample::{SampleError, Sampling, sample};
+pub use spectra::{Harmonic, ReadSpectraError, Spectra, SpectraError, WriteSpectraError};
 pub use spline::Spline;
 pub use strand::{StrandFit, fit_strand};
