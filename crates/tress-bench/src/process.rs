@@ -58,7 +58,18 @@ fn once(program: &Path, args: &[&str]) -> Outcome<Taken> {
     Ok(Taken { seconds, peak })
 }
 
-/// `VmHWM` of a process on Linux.
+/// What `work` gives, and the bytes that this process held at most meanwhile beyond those that it
+/// held before; none where the system does not tell.
+pub(crate) fn held<T>(work: impl FnOnce() -> Outcome<T>) -> Outcome<(T, Option<f64>)> {
+    const STATUS: &str = "/proc/self/status";
+    // Linux sets the high-water mark back to what is held now.
+    let reset = std::fs::write("/proc/self/clear_refs", "5").is_ok();
+    let before = high_water_mark(STATUS).filter(|_| reset);
+    let done = work()?;
+    Ok((done, before.and_then(|before| Some(high_water_mark(STATUS)? - before))))
+}
+
+/// `VmHWM` of a process on Linux, in bytes.
 fn high_water_mark(status_file: &str) -> Option<f64> {
     let status = std::fs::read_to_string(status_file).ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

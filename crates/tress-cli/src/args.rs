@@ -6,12 +6,14 @@ use std::str::FromStr;
 use clap::{Args, Parser};
 
 use crate::commands::Command;
+use crate::sequence::{Frame, Frames};
 
 /// Edit coiled hair in curvature space.
 ///
 /// A groom is read from any format that tress knows, by its extension: .obj .hair .data .bin .ply
 /// .tfx .npy .npz .usda .usdc .usd .abc, and .tress for super-helices. Commands fit polylines on
-/// the way in and sample them on the way out.
+/// the way in and sample them on the way out. Names as in groom.%04d.obj stand for all frames of a
+/// sequence.
 #[derive(Debug, Parser)]
 #[command(name = "tress", version, max_term_width = 100, propagate_version = true)]
 #[command(after_help = "Start with `tress demo`, or with `tress info` on a groom of your own.")]
@@ -46,6 +48,12 @@ pub(crate) struct Everywhere {
     /// Allow the output to be the input file
     #[arg(long, global = true)]
     pub(crate) in_place: bool,
+    /// Of a sequence (files named as in groom.%04d.obj) only these frames, as in 10-48
+    #[arg(long, global = true, value_name = "A-B")]
+    pub(crate) frames: Option<Frames>,
+    /// The frame of a sequence that this is.
+    #[arg(skip)]
+    pub(crate) frame: Frame,
 }
 
 fn parse_threads(text: &str) -> Result<usize, String> {

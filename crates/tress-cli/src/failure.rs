@@ -20,6 +20,14 @@ impl Failure {
         print_error(message);
     }
 
+    /// The same, said of a frame of a sequence.
+    pub(crate) fn on_frame(self, frame: u32) -> Self {
+        match self {
+            Self::Usage(message) => Self::Usage(message),
+            Self::Failed(message) => Self::Failed(format!("frame {frame}: {message}")),
+        }
+    }
+
     pub(crate) fn exit_code(&self) -> ExitCode {
         match self {
             Self::Usage(_) => ExitCode::from(2),

@@ -10,6 +10,7 @@ mod failure;
 mod options;
 mod progress;
 mod report;
+mod sequence;
 mod source;
 mod target;
 
@@ -19,10 +20,13 @@ use clap::Parser;
 
 use crate::args::Cli;
 use crate::failure::Failure;
+use crate::sequence::Sequence;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
-    match run(&cli) {
+    let arguments: Vec<_> = std::env::args_os().collect();
+    let sequence = Sequence::of(arguments);
+    let cli = sequence.as_ref().map_or_else(Cli::parse, Sequence::parse);
+    match run(&cli, sequence.as_ref()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             failure.print();
@@ -31,7 +35,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(cli: &Cli) -> Result<(), Failure> {
+fn run(cli: &Cli, sequence: Option<&Sequence>) -> Result<(), Failure> {
     if let Some(threads) = cli.everywhere.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -39,7 +43,10 @@ fn run(cli: &Cli) -> Result<(), Failure> {
             .map_err(|error| Failure::Failed(format!("no {threads} threads: {error}")))?;
     }
     let started = std::time::Instant::now();
-    let mut report = commands::run(&cli.command, &cli.everywhere)?;
+    let mut report = match sequence {
+        Some(sequence) => sequence.run(cli)?,
+        None => commands::run(&cli.command, &cli.everywhere)?,
+    };
     report.set("seconds", (started.elapsed().as_secs_f64() * 1e3).round() / 1e3);
     report.print(&cli.everywhere)
 }

@@ -8,33 +8,50 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use crate::args::Everywhere;
 
 /// The stages of a command, shown while they last and gone when it ends.
-pub(crate) struct Progress(ProgressBar);
+///
+/// A stage that knows how much there is to do shows a bar and the time left, others that they go
+/// on.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+}
 
 impl Progress {
-    /// For a command of so many stages; silent when asked to be, or when nobody watches.
-    pub(crate) fn new(stages: u64, everywhere: &Everywhere) -> Self {
-        let bar = ProgressBar::new(stages);
+    /// Silent when asked to be, or when nobody watches.
+    pub(crate) fn new(everywhere: &Everywhere) -> Self {
+        let bar = ProgressBar::no_length();
         if everywhere.quiet || !std::io::stderr().is_terminal() {
             bar.set_draw_target(ProgressDrawTarget::hidden());
         }
-        let style = ProgressStyle::with_template("{spinner} {bar:24} {msg} [{elapsed}]")
-            .unwrap_or_else(|_| ProgressStyle::default_bar());
-        bar.set_style(style);
         bar.enable_steady_tick(Duration::from_millis(100));
-        Self(bar)
+        Self { bar }
     }
 
     /// The stage before is done; this one begins.
     pub(crate) fn stage(&self, message: impl Into<String>) {
-        if !self.0.message().is_empty() {
-            self.0.inc(1);
-        }
-        self.0.set_message(message.into());
+        self.begin("{spinner} {msg} [{elapsed}]", message);
+    }
+
+    /// The stage before is done; this one begins, in which `total` things are to be done.
+    pub(crate) fn stage_of(&self, message: impl Into<String>, total: usize) {
+        self.begin("{spinner} {bar:24} {percent:>3} % {msg} [{elapsed}, {eta} to go]", message);
+        self.bar.reset();
+        self.bar.set_length(total as u64);
+    }
+
+    /// So many more of them are done.
+    pub(crate) fn add(&self, more: usize) {
+        self.bar.inc(more as u64);
+    }
+
+    fn begin(&self, template: &str, message: impl Into<String>) {
+        let style = ProgressStyle::with_template(template);
+        self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        self.bar.set_message(message.into());
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        self.bar.finish_and_clear();
     }
 }

@@ -24,6 +24,17 @@ impl Report {
         self.json.insert(name.into(), value);
     }
 
+    /// All values that programs see.
+    pub(crate) fn json(&self) -> &Map<String, Value> {
+        &self.json
+    }
+
+    /// Has programs see this value alone.
+    pub(crate) fn replace_json(&mut self, name: &str, value: impl Serialize) {
+        self.json.clear();
+        self.set(name, value);
+    }
+
     /// Adds a line that people see.
     pub(crate) fn line(&mut self, line: impl Into<String>) {
         self.lines.push(line.into());

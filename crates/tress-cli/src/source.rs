@@ -46,8 +46,9 @@ impl Curved {
         options: &FitOptions,
         progress: &Progress,
     ) -> Result<Self, Failure> {
-        progress.stage(format!("fitting {} strands", count(groom.strands().len())));
-        let fitted = tress::fit::fit(groom, options)?;
+        let strands = groom.strands().len();
+        progress.stage_of(format!("fitting {} strands", count(strands)), strands);
+        let fitted = tress::fit::fit_with(groom, options, |more| progress.add(more))?;
         Ok(Self {
             helices: fitted.helices,
             counts: Some(groom.strands().counts().collect()),

@@ -98,7 +98,8 @@ pub struct SculptOptions {
     /// Length of the gradient, in parts of its length at the start, that counts as nothing.
     /// Default 1e-6.
     pub tolerance: f64,
-    /// Evaluations of the energy after which Levenberg-Marquardt gives up. Default 200.
+    /// Evaluations of the energy after which Levenberg-Marquardt gives up. Default 1000: nearly all
+    /// strands need about ten, and the few that need hundreds are asked for them.
     pub max_iterations: usize,
     /// How far anchors are moved in one step, in parts of the strand's extent. Default 0.25: with
     /// 1 a strand may flip over instead of morphing.
@@ -113,7 +114,7 @@ impl Default for SculptOptions {
             tip_weight: 0.15,
             solver: Solver::default(),
             tolerance: 1e-6,
-            max_iterations: 200,
+            max_iterations: 1000,
             continuation: 0.25,
         }
     }

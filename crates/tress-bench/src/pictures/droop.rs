@@ -30,7 +30,7 @@ pub(super) fn make() -> Outcome {
     let options = RenderOptions { width: StrandWidth::Fixed(0.06), ..RenderOptions::default() };
     let options = RenderOptions { background: options.value_background, ..options };
     let points = before.strands().points().iter().chain(after.strands().points()).copied();
-    let camera = Camera::fit(points, UpAxis::Y, View::Side, Size::new(700, 560), options.margin);
+    let camera = Camera::fit(points, UpAxis::Y, View::Front, Size::new(700, 560), options.margin);
     let draw = |groom: &Groom| {
         let values = off(groom);
         render_seen_by(&camera, groom, &Coloring::Points(&values, &scale), &options)

@@ -4,10 +4,11 @@ use std::time::Instant;
 
 use tress::geometry::glam::DVec3;
 use tress::geometry::{Element, Frame, HelixGroom, Strands, SuperHelix};
-use tress::optimize::{Control, GroomObjective, Objective, SculptOptions, Sculptor, sculpt};
+use tress::optimize::{Control, GroomObjective, Objective, SculptOptions, Sculptor, Stop, sculpt};
 
 use crate::Outcome;
 use crate::metric::{Bar, Figures, say};
+use crate::process;
 
 pub(crate) const NAMES: &[&str] = &[
     "gradient_us",
@@ -16,6 +17,8 @@ pub(crate) const NAMES: &[&str] = &[
     "drag_p50_ms",
     "drag_p99_ms",
     "sculpt_head_seconds",
+    "sculpt_head_unfinished",
+    "sculpt_head_memory",
     "sculpt_strand_us_n45",
     "sculpt_strand_us_n90",
     "sculpt_strand_us_n180",
@@ -129,11 +132,23 @@ fn drag(figures: &mut Figures) -> Outcome {
 fn head(figures: &mut Figures) -> Outcome {
     let mut groom = groom(90_314, 90)?;
     let controls = controls_of(&groom, 3, DVec3::new(2.0, -1.0, 3.0))?;
-    let started = Instant::now();
-    let sculpted = sculpt(&mut groom, &controls, &SculptOptions::default())?;
-    figures.add("sculpt_head_seconds", started.elapsed().as_secs_f64(), "s", Bar::AtMost(5.0));
-    let reports = sculpted.reports.iter().flatten();
-    let worst = reports.map(|report| report.iterations).max().unwrap_or(0);
+    let ((seconds, sculpted), held) = process::held(|| {
+        let started = Instant::now();
+        let sculpted = sculpt(&mut groom, &controls, &SculptOptions::default())?;
+        Ok((started.elapsed().as_secs_f64(), sculpted))
+    })?;
+    figures.add("sculpt_head_seconds", seconds, "s", Bar::AtMost(5.0));
+    let reports = || sculpted.reports.iter().flatten();
+    let unfinished = reports().filter(|report| report.stop != Stop::Converged).count();
+    figures.add("sculpt_head_unfinished", unfinished as f64, "strands", Bar::AtMost(0.0));
+    match held {
+        Some(bytes) => {
+            let each = bytes / 1e3 / groom.len() as f64;
+            figures.add("sculpt_head_memory", each, "kB/strand", Bar::AtMost(1.5));
+        }
+        None => say("# this system does not tell how much memory is held"),
+    }
+    let worst = reports().map(|report| report.iterations).max().unwrap_or(0);
     say(&format!("# the slowest strand took {worst} steps"));
     Ok(())
 }

@@ -45,7 +45,7 @@ pub(crate) fn run(args: &ArmatureArgs, everywhere: &Everywhere) -> Result<Report
         return Err(Failure::Usage(format!("{file}: poses are written as .ron")));
     }
     target::check_in_place(&[&args.input], &args.output, everywhere)?;
-    let progress = Progress::new(4, everywhere);
+    let progress = Progress::new(everywhere);
     let model = source::read(&args.input, &progress)?;
     let curved = Curved::new(model, &args.fit.options(), &progress)?;
     progress.stage("clustering");

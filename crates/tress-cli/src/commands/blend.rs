@@ -52,7 +52,7 @@ pub(crate) enum Space {
 
 pub(crate) fn run(args: &BlendArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     target::check(&[&args.from, &args.to], &args.output, everywhere)?;
-    let progress = Progress::new(6, everywhere);
+    let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("from", &args.from);
     report.set("to", &args.to);

@@ -39,7 +39,7 @@ pub(crate) struct ConvertArgs {
 
 pub(crate) fn run(args: &ConvertArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     let format = target::check(&[&args.input], &args.output, everywhere)?;
-    let progress = Progress::new(4, everywhere);
+    let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.input);
     let curved = match source::read(&args.input, &progress)? {

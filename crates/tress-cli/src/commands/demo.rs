@@ -43,7 +43,7 @@ pub(crate) struct DemoArgs {
 }
 
 pub(crate) fn run(args: &DemoArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    let progress = Progress::new(6, everywhere);
+    let progress = Progress::new(everywhere);
     let dir = &args.dir;
     fs::create_dir_all(dir).map_err(|error| {
         Failure::Failed(format!("{}: cannot make this folder: {error}", dir.display()))

@@ -41,7 +41,7 @@ pub(crate) fn run(args: &FitCommandArgs, everywhere: &Everywhere) -> Result<Repo
         );
         return Err(Failure::Usage(message));
     }
-    let progress = Progress::new(3, everywhere);
+    let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.input);
     let Model::Polylines(groom) = source::read(&args.input, &progress)? else {

@@ -24,7 +24,7 @@ pub(crate) struct InfoArgs {
 }
 
 pub(crate) fn run(args: &InfoArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    let progress = Progress::new(3, everywhere);
+    let progress = Progress::new(everywhere);
     let mut report = Report::default();
     let format = Format::from_path(&args.input)?;
     report.set("input", &args.input);

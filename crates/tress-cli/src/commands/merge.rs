@@ -28,7 +28,7 @@ pub(crate) fn run(args: &MergeArgs, everywhere: &Everywhere) -> Result<Report, F
     };
     let inputs: Vec<&Path> = parts.iter().map(PathBuf::as_path).collect();
     target::check(&inputs, output, everywhere)?;
-    let progress = Progress::new(parts.len() as u64 + 1, everywhere);
+    let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("inputs", parts);
     let Some((first, rest)) = parts.split_first() else {

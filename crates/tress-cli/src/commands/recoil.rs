@@ -55,7 +55,7 @@ pub(crate) enum KeepArg {
 
 pub(crate) fn run(args: &RecoilArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     target::check(&[&args.input], &args.output, everywhere)?;
-    let progress = Progress::new(5, everywhere);
+    let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.input);
     let model = source::read(&args.input, &progress)?;

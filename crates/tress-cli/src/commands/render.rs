@@ -70,7 +70,7 @@ pub(crate) fn run(args: &RenderArgs, everywhere: &Everywhere) -> Result<Report, 
         return Err(Failure::Usage(format!("{file}: pictures are written as .png")));
     }
     target::check_in_place(&[&args.input], &args.output, everywhere)?;
-    let progress = Progress::new(4, everywhere);
+    let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.input);
     let subject = Subject::new(args, everywhere, &progress)?;

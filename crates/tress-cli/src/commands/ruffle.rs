@@ -74,7 +74,7 @@ impl FromStr for Keep {
 
 pub(crate) fn run(args: &RuffleArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     target::check(&[&args.input], &args.output, everywhere)?;
-    let progress = Progress::new(5, everywhere);
+    let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.input);
     let model = source::read(&args.input, &progress)?;
@@ -82,7 +82,14 @@ pub(crate) fn run(args: &RuffleArgs, everywhere: &Everywhere) -> Result<Report, 
     say_fit(&curved, &mut report);
 
     progress.stage("ruffling");
-    let groups = groups(&curved.helices, &args.groups, everywhere.seed)?;
+    let groups = match (&args.groups, everywhere.frame.first(&args.input)) {
+        (Grouping::Clusters(_), Some(first)) => {
+            let first = source::read(first, &progress)?;
+            let first = Curved::new(first, &args.road.fit.options(), &progress)?;
+            groups(&first.helices, &args.groups, everywhere.seed)?
+        }
+        _ => groups(&curved.helices, &args.groups, everywhere.seed)?,
+    };
     let keep = elements_kept(&curved.helices, args.keep);
     let options = RuffleOptions { probability: args.probability, keep, blend: args.blend };
     let (ruffled, done) = ruffle(&curved.helices, &groups, &options, everywhere.seed)?;

@@ -41,7 +41,7 @@ pub(crate) fn run(args: &SampleCommandArgs, everywhere: &Everywhere) -> Result<R
         let message = format!("{file}: a .tress file holds super-helices; name a polyline format");
         return Err(Failure::Usage(message));
     }
-    let progress = Progress::new(4, everywhere);
+    let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.input);
     let model = source::read(&args.input, &progress)?;

@@ -59,7 +59,7 @@ pub(crate) enum SolverArg {
 pub(crate) fn run(args: &SculptArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     target::check(&[&args.input], &args.output, everywhere)?;
     let pose = read_pose(&args.pose)?;
-    let progress = Progress::new(6, everywhere);
+    let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.input);
     report.set("pose", &args.pose);
