@@ -18,7 +18,7 @@ fn main() -> ExitCode {
     let outcome = match task.as_str() {
         "bench" => suites::run(&rest),
         "fixtures" => fixtures::make(),
-        "pictures" => pictures::make(),
+        "pictures" => pictures::make(&rest),
         other => Err(format!("no task named {other:?}; see cargo xtask help").into()),
     };
     match outcome {

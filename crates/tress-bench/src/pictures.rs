@@ -19,15 +19,24 @@ use crate::Outcome;
 use crate::grooms::root;
 use crate::metric::say;
 
-/// Makes them all again.
-pub(crate) fn make() -> Outcome {
+/// What is pictured, and what makes the pictures of it.
+const MAKERS: [(&str, fn() -> Outcome); 5] = [
+    ("demo", demo),
+    ("ruffling", ruffling::make),
+    ("blending", blending::make),
+    ("posing", posing::make),
+    ("droop", droop::make),
+];
+
+/// Makes again those whose name begins with one of the arguments, or all.
+pub(crate) fn make(names: &[String]) -> Outcome {
     fs::create_dir_all(root().join("docs/images"))?;
     fs::create_dir_all(root().join("docs/poses"))?;
-    demo()?;
-    ruffling::make()?;
-    blending::make()?;
-    posing::make()?;
-    droop::make()
+    let wanted = |name: &str| names.is_empty() || names.iter().any(|begin| name.starts_with(begin));
+    for (_, make) in MAKERS.iter().filter(|(name, _)| wanted(name)) {
+        make()?;
+    }
+    Ok(())
 }
 
 /// The README's picture is the demo's.
