@@ -6,6 +6,8 @@
 //! that makes it co-helical. Where joints are co-helical already (floating points) that turning
 //! is rounding; where no arc exists, what is missed is caught up with by the next one.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use std::f64::consts::PI;
 
 use glam::DVec3;
@@ -19,6 +21,49 @@ pub(crate) fn per_segment(spline: &Spline, floating: Floating) -> StrandFit {
     let (root, elements) = Joints::at_points(spline).chain(floating);
     let arc_lengths = joint_arc_lengths(&elements);
     StrandFit { root, elements, arc_lengths }
+}
+
+/// `n` elements, at least as many as segments, through every point: tangents float, and arcs are
+/// cut where there are more elements than segments.
+pub(crate) fn through_points(spline: &Spline, n: usize) -> StrandFit {
+    let fit = per_segment(spline, Floating::Tangents);
+    let elements = cut(&fit.elements, &parts(&fit.arc_lengths, n));
+    StrandFit { elements, ..fit }
+}
+
+/// Arc lengths of `n + 1` joints: the ascending ones given, of which there are no more, and the
+/// rest between them where they are farthest apart.
+pub(crate) fn apportioned(arc_lengths: &[f64], n: usize) -> Vec<f64> {
+    let mut joints = Vec::with_capacity(n + 1);
+    for (ends, parts) in arc_lengths.windows(2).zip(parts(arc_lengths, n)) {
+        let along = |i: usize| ends[0] + (ends[1] - ends[0]) * (i as f64 / parts as f64);
+        joints.extend((0..parts).map(along));
+    }
+    joints.extend(arc_lengths.last());
+    joints
+}
+
+/// Into how many parts each interval is cut so that there are `n`, the longest part as short as
+/// can be.
+fn parts(arc_lengths: &[f64], n: usize) -> Vec<usize> {
+    let lengths: Vec<f64> = arc_lengths.windows(2).map(|ends| ends[1] - ends[0]).collect();
+    let mut parts = vec![1; lengths.len()];
+    // The bits of numbers that are not negative are in the order of the numbers.
+    let of = |i: usize, parts: usize| ((lengths[i] / parts as f64).to_bits(), Reverse(i));
+    let mut longest: BinaryHeap<_> = (0..lengths.len()).map(|i| of(i, 1)).collect();
+    for _ in lengths.len()..n {
+        let Some((_, Reverse(i))) = longest.pop() else { break };
+        parts[i] += 1;
+        longest.push(of(i, parts[i]));
+    }
+    parts
+}
+
+/// The same arcs, each in so many pieces of one length.
+fn cut(arcs: &[Element], parts: &[usize]) -> Vec<Element> {
+    let piece = |arc: &Element, parts: usize| Element { length: arc.length / parts as f64, ..*arc };
+    let pieces = arcs.iter().zip(parts).flat_map(|(arc, &n)| (0..n).map(move |_| piece(arc, n)));
+    pieces.collect()
 }
 
 /// How many arcs an element needs if `n` of them share the curve.

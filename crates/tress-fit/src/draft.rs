@@ -8,7 +8,7 @@ use tress_geometry::polyline::place;
 use tress_geometry::{Element, Frame};
 
 use crate::direct::circle;
-use crate::{HelixArc, Spline, float_tangent};
+use crate::{HelixArc, Spline, StrandFit, float_tangent};
 
 /// A chain whose joints need not be the ends of its elements.
 #[derive(Clone, Debug, Default)]
@@ -89,6 +89,12 @@ impl Draft {
             self.elements[i].frame_at(&self.joints[i], s).position.distance(*point)
         };
         points.iter().zip(&self.places).map(distance).fold(0.0, f64::max)
+    }
+
+    /// The chain, without its joints.
+    pub(crate) fn into_fit(self) -> StrandFit {
+        let arc_lengths = self.arc_lengths();
+        StrandFit { root: self.joints[0], elements: self.elements, arc_lengths }
     }
 
     /// The arc length of each point.

@@ -102,7 +102,7 @@ pub enum Floating {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Refine {
-    /// Greatest number of steps.
+    /// Greatest number of steps. Coils take 4 or 5, strands that turn sharply up to all of them.
     pub steps: usize,
     /// How strongly the curvatures of neighbouring elements are held together; a pure number.
     /// 1 weighs the shift that a jump of curvature brings about from one point to the next as
@@ -116,7 +116,7 @@ pub struct Refine {
 
 impl Default for Refine {
     fn default() -> Self {
-        Self { steps: 8, prior: 1e-3, lengths: true, root: true }
+        Self { steps: 30, prior: 1e-3, lengths: true, root: true }
     }
 }
 

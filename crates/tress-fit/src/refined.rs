@@ -9,17 +9,15 @@
 use glam::DVec3;
 use tress_geometry::polyline::place;
 
+use crate::direct::apportioned;
 use crate::draft::Draft;
 use crate::measure::coil_radius;
-use crate::refine::{Hold, Refiner, is_near};
+use crate::refine::{Hold, Problem, Refiner, is_near};
 use crate::{Elements, Floating, Refine, Spline, StrandFit, Tolerance, direct};
 
 /// Up to this angle a segment, in radians, the smooth curve serves as the draft: its error there
 /// is 1e-3 of a coil's radius.
 const DENSE: f64 = 0.9;
-
-/// The prior's weight from first to last, see [`Refiner::approach`].
-const ONCE: (f64, f64) = (1.0, 1.0);
 
 /// The refined fit along the smooth curve through a strand's points.
 pub(crate) fn fit(
@@ -29,17 +27,11 @@ pub(crate) fn fit(
     settings: &Refine,
 ) -> StrandFit {
     let points = spline.points();
+    let segments = points.len() - 1;
     let mut refiner = Refiner::default();
     let draft = match elements {
-        Elements::PerSegment => {
-            let mut draft = Draft::on(spline, spline.arc_lengths());
-            let cost = refiner.refine(points, &mut draft, Hold::Joints, settings);
-            if is_astray(cost, &draft, points) {
-                // Floating tangents pass through every point.
-                return direct::per_segment(spline, Floating::Tangents);
-            }
-            draft
-        }
+        Elements::PerSegment => return joined(spline, segments, settings, &mut refiner),
+        Elements::Count(n) if segments <= n => return joined(spline, n, settings, &mut refiner),
         Elements::Count(n) => {
             let (draft, cost) = counted(spline, n, settings, &mut refiner);
             if is_astray(cost, &draft, points) && direct::is_enough(spline, n) {
@@ -51,40 +43,49 @@ pub(crate) fn fit(
             let through = through_points(spline, settings, &mut refiner);
             match within(&through, spline, tolerance, settings, &mut refiner) {
                 Some(draft) => draft,
-                // Floating tangents pass through every point.
-                None => return direct::per_segment(spline, Floating::Tangents),
+                None => return direct::through_points(spline, segments),
             }
         }
     };
-    let arc_lengths = draft.arc_lengths();
-    StrandFit { root: draft.joints[0], elements: draft.elements, arc_lengths }
+    draft.into_fit()
 }
 
-/// Exactly `n` elements, equal before they are refined, and what they cost.
+/// As many elements as segments, or more: a joint at each point, the rest between them.
+fn joined(spline: &Spline, n: usize, settings: &Refine, refiner: &mut Refiner) -> StrandFit {
+    let points = spline.points();
+    let mut draft = Draft::on(spline, &apportioned(spline.arc_lengths(), n));
+    let cost = refiner.refine(Problem { points, hold: Hold::Joints, settings }, &mut draft);
+    if is_astray(cost, &draft, points) {
+        return nearest(draft, direct::through_points(spline, n), points);
+    }
+    draft.into_fit()
+}
+
+/// Exactly `n` elements, fewer than segments and equal before they are refined, and what they cost.
 ///
 /// Where that ends far from the points, elements that are drafted short where curvature changes
 /// are tried too.
 fn counted(spline: &Spline, n: usize, settings: &Refine, refiner: &mut Refiner) -> (Draft, f64) {
     let points = spline.points();
+    let problem = Problem { points, hold: Hold::Nearest, settings };
     let dense = spline.turning() < DENSE * (points.len() - 1) as f64;
     let through = (!dense).then(|| through_points(spline, settings, refiner));
     let mut draft = match &through {
         Some(through) => through.redrawn(&evenly(through.length(), n)),
         None => Draft::on(spline, &evenly(spline.length(), n)),
     };
-    let cost = refiner.refine(points, &mut draft, Hold::Nearest, settings);
+    let cost = refiner.refine(problem, &mut draft);
     if is_near(cost, points.len(), &draft) {
         return (draft, cost);
     }
     let through = through.unwrap_or_else(|| through_points(spline, settings, refiner));
     let mut other = through.redrawn(&Spacing::of(&through).joints(n));
-    let other_cost = refiner.refine(points, &mut other, Hold::Nearest, settings);
+    let other_cost = refiner.refine(problem, &mut other);
     if other_cost < cost { (other, other_cost) } else { (draft, cost) }
 }
 
 /// A point that is missed by more than this part of a segment's or element's length is off its arc,
-/// not
-/// between bends that the arc averages: the refinement went astray, as it does on strands that
+/// not between bends that the arc averages: the refinement went astray, as it does on strands that
 /// turn sharply at points. A fit that is not astray misses a coil's points by a hundredth.
 const ASTRAY: f64 = 0.5;
 
@@ -96,11 +97,7 @@ fn is_astray(cost: f64, draft: &Draft, points: &[DVec3]) -> bool {
 
 /// The draft or the arcs, whichever has the points nearer.
 fn nearest(draft: Draft, arcs: StrandFit, points: &[DVec3]) -> StrandFit {
-    let drafted = StrandFit {
-        root: draft.joints[0],
-        arc_lengths: draft.arc_lengths(),
-        elements: draft.elements,
-    };
+    let drafted = draft.into_fit();
     let square = |fit: &StrandFit| -> f64 {
         let strand = fit.super_helix();
         let places = strand.frames_at(fit.arc_lengths.iter().copied());
@@ -110,10 +107,15 @@ fn nearest(draft: Draft, arcs: StrandFit, points: &[DVec3]) -> StrandFit {
     if square(&arcs) < square(&drafted) { arcs } else { drafted }
 }
 
+/// Steps that the curve takes which others are drafted on: it need not be the best.
+const DRAFT_STEPS: usize = 8;
+
 /// An element a segment, refined so far that others can be drafted on it.
 fn through_points(spline: &Spline, settings: &Refine, refiner: &mut Refiner) -> Draft {
     let mut draft = Draft::on(spline, spline.arc_lengths());
-    refiner.approach(spline.points(), &mut draft, Hold::Joints, settings, ONCE);
+    let settings = &Refine { steps: settings.steps.min(DRAFT_STEPS), ..*settings };
+    let problem = Problem { points: spline.points(), hold: Hold::Joints, settings };
+    refiner.approach(problem, &mut draft);
     draft
 }
 
@@ -146,7 +148,8 @@ fn within(
     let spacing = Spacing::of(through);
     let mut attempt = |n: usize| {
         let mut draft = through.redrawn(&spacing.joints(n));
-        let cost = refiner.refine(points, &mut draft, Hold::Nearest, settings);
+        let problem = Problem { points, hold: Hold::Nearest, settings };
+        let cost = refiner.refine(problem, &mut draft);
         (cost.is_finite() && draft.greatest_distance(points) <= bound).then_some(draft)
     };
     let most = points.len() - 1;
@@ -160,8 +163,8 @@ fn within(
     let Some(mut best) = found else {
         return SOFTER.iter().find_map(|part| {
             let mut draft = through.clone();
-            let settings = Refine { prior: part * settings.prior, ..*settings };
-            let cost = refiner.refine(points, &mut draft, Hold::Joints, &settings);
+            let settings = &Refine { prior: part * settings.prior, ..*settings };
+            let cost = refiner.refine(Problem { points, hold: Hold::Joints, settings }, &mut draft);
             (cost.is_finite() && draft.greatest_distance(points) <= bound).then_some(draft)
         });
     };

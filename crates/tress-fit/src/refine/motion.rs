@@ -1,6 +1,8 @@
 //! What an element does to a frame, and what that means for rows and deviations.
 
-use glam::{DMat3, DVec3};
+use std::f64::consts::PI;
+
+use glam::{DMat3, DVec2, DVec3};
 use tress_geometry::{Element, Frame};
 
 use super::quadratic::{Row, Transition};
@@ -30,7 +32,8 @@ impl Motion {
 
     pub(super) fn transition(&self, from: &Frame, q: DVec3, to: &Frame) -> Transition {
         let axes = to.axes.transpose() * from.axes;
-        Transition::new(&axes, &self.rotation, &self.turning, &self.moving, q)
+        let straightened = axes * straightening(self.rotation.x_axis, axes);
+        Transition::new(&axes, &straightened, &self.rotation, &self.turning, &self.moving, q)
     }
 
     /// The two components across the curve of the miss `from_start + V e0`.
@@ -50,14 +53,54 @@ pub(super) fn gap(frame: &Frame, whole: &Motion, joint: &Frame) -> [f64; 5] {
     let into_axes = joint.axes.transpose();
     let end = frame.position + frame.axes * whole.turning.x_axis;
     let off = into_axes * (end - joint.position);
-    let lean = into_axes * (frame.axes * whole.rotation.x_axis);
-    [off.x, off.y, off.z, lean.y, lean.z]
+    let lean = lean(into_axes * (frame.axes * whole.rotation.x_axis));
+    [off.x, off.y, off.z, lean.x, lean.y]
 }
 
 /// A joint moved by a deviation of its state.
 pub(super) fn moved(joint: &Frame, state: &[f64; 5]) -> Frame {
     let [x, y, z, u, v] = *state;
-    let tangent = joint.axes * DVec3::new(1.0, u, v).normalize();
+    let angle = u.hypot(v);
+    let (sine, cosine) = angle.sin_cos();
+    let ratio = if angle < SMALL { 1.0 } else { sine / angle };
+    let tangent = joint.axes * DVec3::new(cosine, ratio * u, ratio * v);
     let position = joint.position + joint.axes * DVec3::new(x, y, z);
     Frame { position, ..joint.turned_to(tangent) }
 }
+
+/// The way from the axis x to a unit tangent, across the axis and as long as their angle: the
+/// inverse of what [`moved`] does.
+pub(super) fn lean(tangent: DVec3) -> DVec2 {
+    let across = DVec2::new(tangent.y, tangent.z);
+    let sine = across.length();
+    if sine < SMALL {
+        return if tangent.x < 0.0 { DVec2::new(PI, 0.0) } else { across };
+    }
+    across * (sine.atan2(tangent.x) / sine)
+}
+
+/// Angles below this are their sines.
+const SMALL: f64 = 1e-8;
+
+/// `4 tan^2(phi / 2)` of the angle between unit tangents: the angle's square where it is small, and
+/// without bound where they are opposite, so that no gap stays there.
+pub(super) fn tan_square(a: DVec3, b: DVec3) -> f64 {
+    let cosine = a.dot(b);
+    4.0 * (1.0 - cosine).max(0.0) / (1.0 + cosine).max(f64::EPSILON)
+}
+
+/// The least rotation that brings `end` to where `axes` take it to the axis x; the identity where
+/// they nearly are, for the difference is of second order.
+fn straightening(end: DVec3, axes: DMat3) -> DMat3 {
+    let there = axes.row(0);
+    let cosine = end.dot(there);
+    if ALIGNED < cosine {
+        return DMat3::IDENTITY;
+    }
+    let w = end.cross(there);
+    let spin = |a: DVec3| a * cosine + w.cross(a) + w * (w.dot(a) / (1.0 + cosine).max(1e-9));
+    DMat3::from_cols(spin(DVec3::X), spin(DVec3::Y), spin(DVec3::Z))
+}
+
+/// The cosine of the angle, 8 degrees, up to which tangents are nearly along each other.
+const ALIGNED: f64 = 0.99;

@@ -48,6 +48,12 @@ impl Quadratic<M> {
         }
     }
 
+    /// Adds half the square of `value + slope` times the change of the length.
+    pub(super) fn add_length_square(&mut self, slope: f64, value: f64) {
+        self.h[8][8] += slope * slope;
+        self.g[8] += slope * value;
+    }
+
     /// Minimises over the length, which costs `weight / 2` times its square on top; returns what
     /// is left and the length as a function of the rest.
     pub(super) fn without_length(&self, weight: f64) -> (Quadratic<N>, LengthGain) {
@@ -108,8 +114,9 @@ impl CurvatureGain {
 }
 
 /// What an element does to deviations, to first order. With `B` from the axes at its start to
-/// those of the joint behind it, and `t = R e0`,
-/// `dp' = B (dp + V (0, a) + D w + t dl)`, `a' = B (R (0, a) + V w x t + q x t dl)` across the
+/// those of the joint behind it, `C` the same after the least rotation that brings the element's
+/// end tangent to the joint's, and `t = R e0`,
+/// `dp' = B (dp + V (0, a) + D w + t dl)`, `a' = C (R (0, a) + V w x t + q x t dl)` across the
 /// tangent, `w' = B w`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Transition {
@@ -123,6 +130,7 @@ impl Transition {
     /// Of an element of curvature `q` whose rotation, turning and moving are `R`, `V` and `D`.
     pub(super) fn new(
         b: &DMat3,
+        c: &DMat3,
         rotation: &DMat3,
         turning: &DMat3,
         moving: &DMat3,
@@ -140,15 +148,15 @@ impl Transition {
         for j in 0..3 {
             set(0..3, j, b.col(j));
             set(0..3, 5 + j, *b * moving.col(j));
-            set(3..5, 5 + j, *b * turning.col(j).cross(t));
+            set(3..5, 5 + j, *c * turning.col(j).cross(t));
             set(5..8, 5 + j, b.col(j));
         }
         for (column, j) in [(3, 1), (4, 2)] {
             set(0..3, column, *b * turning.col(j));
-            set(3..5, column, *b * rotation.col(j));
+            set(3..5, column, *c * rotation.col(j));
         }
         set(0..3, 8, *b * t);
-        set(3..5, 8, *b * q.cross(t));
+        set(3..5, 8, *c * q.cross(t));
         Self { map }
     }
 

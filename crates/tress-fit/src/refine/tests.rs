@@ -1,3 +1,5 @@
+use super::motion::{Motion, moved};
+use super::sweep::{LENGTH_DAMPING, SLIDE_DAMPING};
 use super::*;
 use crate::{Spline, TangentRule};
 
@@ -84,14 +86,8 @@ fn the_sweep_finds_the_minimum_of_the_linear_model() {
     let settings = Refine::default();
     let mut refiner = Refiner::default();
     refiner.tie(&draft);
-    let start = refiner.sweep_back(
-        &points,
-        &draft,
-        Hold::Nearest,
-        settings.prior,
-        FIRST_DAMPING,
-        &settings,
-    );
+    let problem = Problem { points: &points, hold: Hold::Nearest, settings: &settings };
+    let start = refiner.sweep_back(problem, &draft, FIRST_DAMPING);
     let controls = answers(&refiner, &draft, &start);
     let cost = |controls: &Controls, t: [f64; 2]| model(&refiner, &points, &draft, t, controls);
     let tangent = [start[0], start[1]];
@@ -120,7 +116,8 @@ fn held_joints_go_through_the_points_and_leave_no_gaps() {
     let spline = Spline::through(&points, TangentRule::Helix);
     let mut draft = Draft::on(&spline, spline.arc_lengths());
     let settings = Refine { prior: 1e-6, steps: 30, ..Refine::default() };
-    Refiner::default().refine(&points, &mut draft, Hold::Joints, &settings);
+    let problem = Problem { points: &points, hold: Hold::Joints, settings: &settings };
+    Refiner::default().refine(problem, &mut draft);
     for (j, element) in draft.elements.iter().enumerate() {
         let end = element.advance(&draft.joints[j]);
         assert!(end.position.distance(draft.joints[j + 1].position) < 1e-13);
@@ -135,7 +132,8 @@ fn what_is_held_stays() {
     let drafted = Draft::on(&spline, spline.arc_lengths());
     let mut draft = drafted.clone();
     let settings = Refine { lengths: false, root: false, ..Refine::default() };
-    Refiner::default().refine(&points, &mut draft, Hold::Joints, &settings);
+    let problem = Problem { points: &points, hold: Hold::Joints, settings: &settings };
+    Refiner::default().refine(problem, &mut draft);
     assert!(draft.joints[0].tangent().distance(drafted.joints[0].tangent()) < 1e-15);
     for (a, b) in draft.elements.iter().zip(&drafted.elements) {
         assert!((a.length - b.length).abs() < 1e-15);
