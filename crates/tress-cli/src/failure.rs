@@ -1,6 +1,8 @@
 //! Why a command did not do what it was told, in one line.
 
+use std::panic::{AssertUnwindSafe, catch_unwind, set_hook};
 use std::process::ExitCode;
+use std::sync::Mutex;
 
 use anstyle::{AnsiColor, Style};
 
@@ -40,6 +42,23 @@ impl<E: std::error::Error> From<E> for Failure {
     fn from(error: E) -> Self {
         Self::Failed(error.to_string())
     }
+}
+
+/// Runs the program so that a bug in it ends in one line too.
+///
+/// Readers of files made by others are allowed to panic and are caught below; what they print is of
+/// no use to anyone.
+pub(crate) fn caught(run: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
+    static LAST: Mutex<String> = Mutex::new(String::new());
+    set_hook(Box::new(|info| {
+        if let Ok(mut last) = LAST.lock() {
+            *last = info.to_string().replace('\n', " ");
+        }
+    }));
+    catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|_| {
+        let last = LAST.lock().map(|last| last.clone()).unwrap_or_default();
+        Err(Failure::Failed(format!("this is a bug in tress, please report it: {last}")))
+    })
 }
 
 fn print_error(message: &str) {

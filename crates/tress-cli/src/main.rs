@@ -26,7 +26,7 @@ fn main() -> ExitCode {
     let arguments: Vec<_> = std::env::args_os().collect();
     let sequence = Sequence::of(arguments);
     let cli = sequence.as_ref().map_or_else(Cli::parse, Sequence::parse);
-    match run(&cli, sequence.as_ref()) {
+    match failure::caught(|| run(&cli, sequence.as_ref())) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             failure.print();
