@@ -1,1 +1,68 @@
-//! Alembic curves written to Ogawa files.
+//! Alembic curves written to Ogawa archives (`.abc`), in pure Rust.
+//!
+//! Knows curves and nothing of what they are curves of: positions, counts, widths, texture
+//! coordinates, any geometry parameters, user properties, transforms above them, and samples over
+//! time. Reading is not done here; the `ogawa-rs` crate does it.
+//!
+//! ```
+//! use std::io::Cursor;
+//! use tress_alembic::{Archive, CurvesSample, Kind, Numbers, Parameter, Scope, Values};
+//!
+//! let mut archive = Archive::new(Cursor::new(Vec::new()), "an example")?;
+//! let time = archive.add_time(1.0 / 24.0, 1.0 / 24.0);
+//! let head = archive.add_transform(archive.top(), "head", None)?;
+//! archive.set_user_property(head, "made_by", Values::scalars(Numbers::Text(&["hand"])))?;
+//! let hair = archive.add_curves(head, "hair", Kind::Linear, time)?;
+//! for height in [0.5, 1.0] {
+//!     let points = [[0.0, 0.0, 0.0], [0.0, height, 0.0], [1.0, 0.0, 0.0], [1.0, height, 0.0]];
+//!     let ids = Parameter::new("id", Scope::Uniform, Values::scalars(Numbers::I32(&[7, 8])));
+//!     let sample = CurvesSample {
+//!         points: &points,
+//!         counts: &[2, 2],
+//!         widths: Some((Scope::Constant, &[0.1])),
+//!         uvs: None,
+//!         parameters: &[ids],
+//!     };
+//!     archive.write_curves(hair, &sample)?;
+//! }
+//! let bytes = archive.finish()?.into_inner();
+//! assert!(bytes.starts_with(b"Ogawa\xff"));
+//! # Ok::<(), tress_alembic::Error>(())
+//! ```
+//!
+//! # What readers make of it
+//!
+//! Linear curves carry the basis `kNoBasis`: what the C++ library writes when nothing is said
+//! (`kBezierBasis`) makes Blender's importer take every third point only. Bounds are written with
+//! each sample. Equal samples are stored once, whatever properties they belong to, so an attribute
+//! that does not change costs nothing in a sequence.
+//!
+//! # The file
+//!
+//! | from the bottom up | module |
+//! |---|---|
+//! | a tree of groups and data, each a length and its contents | `chunks` |
+//! | 128-bit digests by which readers' caches know samples again | `digest` |
+//! | values over time, and properties that hold them | `samples`, `property` |
+//! | objects, the schemas `AbcGeom_Xform_v3` and `AbcGeom_Curve_v2` | `object`, `schema` |
+//! | header, time samplings, texts that headers share | `archive`, `texts` |
+//!
+//! The layout is that of Alembic 1.8's `AbcCoreOgawa`, followed byte by byte in archives of the C++
+//! library. One thing differs: the digests of whole objects are made with `MurmurHash3`, as those of
+//! samples, where that library uses `SpookyHash`. Readers compare them with each other only.
+
+mod archive;
+mod chunks;
+mod digest;
+mod error;
+mod object;
+mod property;
+mod samples;
+mod schema;
+mod texts;
+mod values;
+
+pub use archive::{Archive, Object, Time};
+pub use error::Error;
+pub use schema::{CurvesSample, Kind, Parameter, Scope};
+pub use values::{Numbers, Values};

@@ -20,7 +20,7 @@
 //!
 //! Not read are curves of variable order, with knots that are not evenly spaced, or with weights:
 //! they are an error, for as anything else they would be other curves. The older HDF5 archives are
-//! another format and an error that says so. Archives are not written by this crate.
+//! another format and an error that says so.
 //!
 //! # What ogawa-rs is not asked
 //!
@@ -33,10 +33,12 @@
 mod chunks;
 mod curves;
 mod metadata;
+mod parameters;
 mod properties;
 mod transform;
+pub(crate) mod writer;
 
-use std::io::{self, Cursor, Read, Seek, SeekFrom};
+use std::io::{self, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use glam::DMat4;
@@ -45,7 +47,7 @@ use tress_geometry::Groom;
 
 use crate::basis_curves::join;
 use crate::foreign::{no_panic, one_line};
-use crate::{ParseError, Place, Problem};
+use crate::{EncodeError, Frames, ParseError, Place, Problem};
 
 /// What archives begin with, before a byte that says whether they are whole.
 const MAGIC: &[u8] = b"Ogawa";
@@ -84,6 +86,42 @@ pub fn read(path: &Path) -> Result<Groom, ParseError> {
         Hierarchy { archive, file }.visit(&root, DMat4::IDENTITY, 0, &mut parts)?;
         join(parts).map_err(|error| Problem::Unsupported(error.to_string()).at(Place::File))
     })
+}
+
+/// Writes a groom as an archive of one curves object.
+///
+/// ```
+/// use glam::DVec3;
+/// use tress_geometry::{Groom, Strands, UpAxis};
+///
+/// let strands = Strands::from_counts([2], vec![DVec3::ZERO, DVec3::Z])?;
+/// let groom = Groom::new(strands).in_space(Some(0.01), Some(UpAxis::Z));
+/// let dir = tempfile::tempdir()?;
+/// let path = dir.path().join("hair.abc");
+/// tress_io::alembic::write(&groom, &mut std::fs::File::create(&path)?)?;
+/// let back = tress_io::alembic::read(&path)?;
+/// assert_eq!(back.strands().points()[1], DVec3::Y);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// If the stream takes no more, a strand has more points than Alembic can count (2^31), or a column
+/// more than 255 numbers a row.
+pub fn write(groom: &Groom, out: &mut (impl Write + Seek)) -> Result<(), EncodeError> {
+    write_as(writer::Names::Own, groom, out)
+}
+
+/// Writes a groom as an archive of one sample.
+pub(crate) fn write_as(
+    names: writer::Names,
+    groom: &Groom,
+    out: &mut (impl Write + Seek),
+) -> Result<(), EncodeError> {
+    let still = Frames { start: 0.0, ..Frames::default() };
+    let mut writer = writer::Writer::new(out, groom, still, names)?;
+    writer.push(groom)?;
+    writer.finish().map(drop)
 }
 
 fn check_header(bytes: &[u8]) -> Result<(), ParseError> {

@@ -71,6 +71,14 @@ impl<'a> PointValues<'a> {
         Rows::of_strands(groom, name, components).map(Self::Strands)
     }
 
+    /// One number of a point of a strand.
+    pub(crate) fn get(&self, strand: usize, point: usize, component: usize) -> f64 {
+        match self {
+            Self::Own(rows) => rows.get(point, component),
+            Self::Strands(rows) => rows.get(strand, component),
+        }
+    }
+
     /// The values of a point of a strand.
     pub(crate) fn row<const N: usize>(&self, strand: usize, point: usize) -> [f64; N] {
         match self {

@@ -240,8 +240,8 @@ pub enum WriteError {
     /// ```
     /// # use tress_geometry::{Groom, Strands};
     /// let groom = Groom::new(Strands::default());
-    /// let error = tress_io::write("hair.abc", &groom, &Default::default()).unwrap_err();
-    /// assert!(error.to_string().starts_with("hair.abc: .abc files are read, not written"));
+    /// let error = tress_io::write("hair.usdc", &groom, &Default::default()).unwrap_err();
+    /// assert!(error.to_string().starts_with("hair.usdc: .usdc files are read, not written"));
     /// ```
     #[error("{}: .{} files are read, not written; {advice}", path.display(), format.extension())]
     ReadOnly {

@@ -166,7 +166,7 @@ impl Format {
             Self::Usda => "USD BasisCurves, text",
             Self::Usdc => "USD BasisCurves, binary (read only)",
             Self::Usd => "USD BasisCurves, text or binary (read only)",
-            Self::Abc => "Alembic curves (read only)",
+            Self::Abc => "Alembic curves",
         }
     }
 
@@ -178,7 +178,6 @@ impl Format {
     pub fn writable(self) -> Result<(), &'static str> {
         match self {
             Self::Usdc | Self::Usd => Err("write .usda, which every USD tool reads as well"),
-            Self::Abc => Err("write .usda, which Blender, Houdini and Maya read as curves too"),
             _ => Ok(()),
         }
     }
@@ -220,8 +219,7 @@ impl Format {
                 strand_columns: Columns::Only(&[(names::WIDTH, 1), (names::ROOT_UV, 2)]),
                 ..POSITIONS_ONLY
             },
-            Self::Npz | Self::Tress | Self::Usda | Self::Usdc | Self::Usd => EVERYTHING,
-            Self::Abc => Carries { unit: false, up: false, ..EVERYTHING },
+            Self::Npz | Self::Tress | Self::Usda | Self::Usdc | Self::Usd | Self::Abc => EVERYTHING,
         }
     }
 }

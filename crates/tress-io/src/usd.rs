@@ -49,6 +49,7 @@
 //! it (see `usd/stage/crate_file.rs`), and text is held to a depth of nesting that its recursive parser
 //! survives. What indexing errors are left in it end as an error, not as a panic of the caller.
 
+mod primvars;
 #[cfg_attr(not(feature = "usd"), path = "usd/no_stage.rs")]
 mod stage;
 mod writer;
@@ -125,4 +126,14 @@ pub fn write(
     out: &mut impl Write,
 ) -> Result<(), EncodeError> {
     writer::write(groom, options.usd_curves, out)
+}
+
+fn check_counts(groom: &Groom) -> Result<(), EncodeError> {
+    match groom.strands().counts().position(|count| i32::try_from(count).is_err()) {
+        Some(strand) => Err(EncodeError::Strand {
+            strand,
+            reason: "has more points than USD can count (2,147,483,647)".into(),
+        }),
+        None => Ok(()),
+    }
 }

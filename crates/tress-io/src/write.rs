@@ -13,8 +13,8 @@ use tempfile::NamedTempFile;
 use tress_geometry::{Groom, HelixGroom};
 
 use crate::{
-    EncodeError, Format, Loss, WriteError, ct2hair, data, hair, losses, native, npy, npz, obj, ply,
-    tfx, usd,
+    EncodeError, Format, Loss, WriteError, alembic, ct2hair, data, hair, losses, native, npy, npz,
+    obj, ply, tfx, usd,
 };
 
 /// Choices that some formats leave open.
@@ -63,10 +63,11 @@ pub fn write(
         Format::Npy => npy::write(groom, out),
         Format::Npz => npz::write(groom, out),
         Format::Usda => usd::write(groom, options, out),
+        Format::Abc => alembic::write(groom, out),
         Format::Tress => Err(EncodeError::Groom(
             "a .tress file holds super-helices, not polylines: fit them first".into(),
         )),
-        Format::Usdc | Format::Usd | Format::Abc => {
+        Format::Usdc | Format::Usd => {
             Err(EncodeError::Groom(format!("{format} files are not written")))
         }
     })?;

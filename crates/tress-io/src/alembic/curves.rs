@@ -5,17 +5,13 @@ use ogawa_rs::{ObjectReader, PodArray, PropertyReader};
 use tress_geometry::curves::CubicBasis;
 use tress_geometry::{Column, Groom, Strands, names};
 
+use super::parameters::FIELDS;
 use super::{Hierarchy, properties};
 use crate::basis_curves::{self, BasisCurves, CurveType, Rows, Wrap};
 use crate::{ParseError, Place, Problem};
 
-/// Names of parameters that say what a column of ours says: those of the schema that Unreal reads.
-const ALIASES: [(&str, &str); 4] = [
-    ("groom_width", names::WIDTH),
-    ("groom_root_uv", names::ROOT_UV),
-    ("groom_color", names::COLOR),
-    ("groom_group_id", names::GROUP),
-];
+/// The width that Unreal reads where curves have none.
+const GROOM_WIDTH: &str = "groom_width";
 /// The parameters of the schema itself, and the columns they become.
 const NATIVE: [(&str, &str); 2] = [("width", names::WIDTH), ("uv", names::ROOT_UV)];
 
@@ -39,8 +35,12 @@ pub(super) fn read(
     let mut groom = Groom::new(strands);
     if let Some(parameters) = properties::get(hierarchy, &geometry, ".arbGeomParams", &place)? {
         for name in properties::names(&parameters) {
-            let alias = ALIASES.iter().find(|(theirs, _)| *theirs == name);
-            let ours = alias.map_or(name.as_str(), |(_, ours)| ours);
+            let field = FIELDS.iter().find(|field| field.theirs == name);
+            let ours = match field {
+                Some(field) => field.ours,
+                None if name == GROOM_WIDTH => names::WIDTH,
+                None => name.as_str(),
+            };
             attach(hierarchy, &parameters, &name, ours, &curves, &mut groom, &place)?;
         }
     }

@@ -1,0 +1,73 @@
+//! What cannot be written, and why.
+
+use std::io;
+
+/// Why something does not go into an archive.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A name that is empty or has `/` or a control character in it.
+    ///
+    /// ```
+    /// # use std::io::Cursor;
+    /// # use tress_alembic::{Archive, Error};
+    /// let mut archive = Archive::new(Cursor::new(Vec::new()), "")?;
+    /// let error = archive.add_transform(archive.top(), "a/b", None).unwrap_err();
+    /// assert!(matches!(error, Error::Name(name) if name == "a/b"));
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[error("{0:?} is no name: it is empty or has a slash or a control character in it")]
+    Name(String),
+    /// A name that a sibling or another property of the object has.
+    ///
+    /// ```
+    /// # use std::io::Cursor;
+    /// # use tress_alembic::{Archive, Error};
+    /// let mut archive = Archive::new(Cursor::new(Vec::new()), "")?;
+    /// archive.add_transform(archive.top(), "a", None)?;
+    /// let error = archive.add_transform(archive.top(), "a", None).unwrap_err();
+    /// assert!(matches!(error, Error::Taken(_)));
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[error("the name {0:?} is taken")]
+    Taken(String),
+    /// Counts that do not sum to the number of points, or one that is negative.
+    ///
+    /// ```
+    /// # use std::io::Cursor;
+    /// # use tress_alembic::{Archive, CurvesSample, Error, Kind};
+    /// let mut archive = Archive::new(Cursor::new(Vec::new()), "")?;
+    /// let time = archive.add_time(0.0, 1.0);
+    /// let hair = archive.add_curves(archive.top(), "hair", Kind::Linear, time)?;
+    /// let sample = CurvesSample { points: &[], counts: &[3], ..CurvesSample::default() };
+    /// let error = archive.write_curves(hair, &sample).unwrap_err();
+    /// assert!(matches!(error, Error::Counts { counted: 3, points: 0 }));
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[error("the curves' counts sum to {counted}, but there are {points} points")]
+    Counts {
+        /// What the counts sum to; a negative count counts as none.
+        counted: usize,
+        /// Points given.
+        points: usize,
+    },
+    /// A parameter without the rows that its scope asks for.
+    #[error("parameter {name:?} has {rows} rows, expected {expected}")]
+    Rows {
+        /// The parameter.
+        name: String,
+        /// Rows it has.
+        rows: usize,
+        /// Rows that its scope asks for.
+        expected: usize,
+    },
+    /// A parameter that is of another type than in the sample before, or that was not in the first.
+    #[error("parameter {0:?} is not what it was in the first sample")]
+    Changed(String),
+    /// An object of another archive, or samples of curves for one that is a transform.
+    #[error("the object is not in the archive, or holds no curves")]
+    NoObject,
+    /// The stream takes no more.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+}
