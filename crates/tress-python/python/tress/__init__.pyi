@@ -1,0 +1,261 @@
+"""Editing coiled hair in curvature space."""
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal, TypeAlias, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+Floats: TypeAlias = NDArray[np.float64]
+Path: TypeAlias = str | os.PathLike[str]
+UnitName: TypeAlias = Literal["mm", "cm", "m", "in", "ft"]
+UpAxis: TypeAlias = Literal["y", "z"]
+Color: TypeAlias = tuple[int, int, int] | Sequence[int]
+Progress: TypeAlias = Callable[[float], object]
+Report: TypeAlias = dict[str, Any]
+Pose: TypeAlias = Mapping[str, Any] | str
+
+class TressError(ValueError): ...
+
+class Groom:
+    def __init__(
+        self,
+        positions: ArrayLike,
+        offsets: ArrayLike | None = None,
+        *,
+        counts: ArrayLike | None = None,
+        unit: float | UnitName | None = None,
+        up: UpAxis | None = None,
+        point_attributes: Mapping[str, ArrayLike] | None = None,
+        strand_attributes: Mapping[str, ArrayLike] | None = None,
+    ) -> None: ...
+    @property
+    def positions(self) -> Floats: ...
+    @property
+    def offsets(self) -> NDArray[np.uint32]: ...
+    @property
+    def counts(self) -> NDArray[np.int64]: ...
+    @property
+    def unit(self) -> float | None: ...
+    @property
+    def up(self) -> UpAxis | None: ...
+    @property
+    def point_attributes(self) -> dict[str, NDArray[Any]]: ...
+    @property
+    def strand_attributes(self) -> dict[str, NDArray[Any]]: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, strand: int) -> Floats: ...
+    def with_positions(self, positions: ArrayLike) -> Groom: ...
+    def with_attributes(
+        self,
+        *,
+        point: Mapping[str, ArrayLike | None] | None = None,
+        strand: Mapping[str, ArrayLike | None] | None = None,
+    ) -> Groom: ...
+    def in_space(self, unit: float | UnitName | None = None, up: UpAxis | None = None) -> Groom: ...
+    def turned_up(self, up: UpAxis) -> Groom: ...
+    def select(self, strands: ArrayLike) -> Groom: ...
+    def joined(self, other: Groom) -> Groom: ...
+    def strand_values(self, name: str) -> Floats: ...
+
+class HelixGroom:
+    def __init__(
+        self,
+        root_positions: ArrayLike,
+        root_frames: ArrayLike,
+        curvatures: ArrayLike,
+        lengths: ArrayLike,
+        offsets: ArrayLike | None = None,
+        *,
+        counts: ArrayLike | None = None,
+        unit: float | UnitName | None = None,
+        up: UpAxis | None = None,
+        strand_attributes: Mapping[str, ArrayLike] | None = None,
+        joint_attributes: Mapping[str, ArrayLike] | None = None,
+        kept_strands: ArrayLike | None = None,
+        kept: Groom | None = None,
+    ) -> None: ...
+    @property
+    def curvatures(self) -> Floats: ...
+    @property
+    def lengths(self) -> Floats: ...
+    @property
+    def offsets(self) -> NDArray[np.uint32]: ...
+    @property
+    def counts(self) -> NDArray[np.int64]: ...
+    @property
+    def root_positions(self) -> Floats: ...
+    @property
+    def root_frames(self) -> Floats: ...
+    @property
+    def kept_strands(self) -> NDArray[np.uint32]: ...
+    @property
+    def kept(self) -> Groom: ...
+    @property
+    def unit(self) -> float | None: ...
+    @property
+    def up(self) -> UpAxis | None: ...
+    @property
+    def strand_attributes(self) -> dict[str, NDArray[Any]]: ...
+    @property
+    def joint_attributes(self) -> dict[str, NDArray[Any]]: ...
+    def __len__(self) -> int: ...
+    def joints(self, strand: int) -> tuple[Floats, Floats]: ...
+    def with_elements(
+        self, curvatures: ArrayLike | None = None, lengths: ArrayLike | None = None
+    ) -> HelixGroom: ...
+    def with_attributes(
+        self,
+        *,
+        strand: Mapping[str, ArrayLike] | None = None,
+        joint: Mapping[str, ArrayLike] | None = None,
+    ) -> HelixGroom: ...
+    def select(self, strands: ArrayLike) -> HelixGroom: ...
+    def joined(self, other: HelixGroom) -> HelixGroom: ...
+
+def read(path: Path) -> Groom | HelixGroom: ...
+def write(
+    path: Path,
+    groom: Groom | HelixGroom,
+    *,
+    usd_curves: Literal["linear", "catmull-rom"] = "linear",
+) -> list[str]: ...
+def fit(
+    groom: Groom,
+    *,
+    elements: int | None = None,
+    tolerance: float | None = None,
+    tolerance_of_radius: float | None = None,
+    tangents: Literal["helix", "circle", "centripetal", "uniform"] = "helix",
+    floating: Literal["points", "tangents"] = "points",
+    refine: bool = True,
+    steps: int = 8,
+    prior: float = 1e-3,
+    lengths: bool = True,
+    root: bool = True,
+    measure: bool = True,
+    progress: Progress | None = None,
+) -> tuple[HelixGroom, Report]: ...
+def sample(
+    helices: HelixGroom,
+    *,
+    points: int | None = None,
+    counts: ArrayLike | None = None,
+    spacing: float | None = None,
+    per_turn: float | None = None,
+) -> Groom: ...
+def groups(
+    helices: HelixGroom,
+    *,
+    attribute: str | None = None,
+    clusters: int | None = None,
+    seed: int = 0,
+) -> NDArray[np.uint32]: ...
+def ruffle(
+    helices: HelixGroom,
+    groups: ArrayLike | None = None,
+    *,
+    probability: float = 0.05,
+    keep: int = 30,
+    blend: float = 1.0,
+    seed: int = 0,
+) -> tuple[HelixGroom, Report]: ...
+@overload
+def blend(
+    a: HelixGroom,
+    b: HelixGroom,
+    amount: float = 0.5,
+    *,
+    space: Literal["curvature", "darboux"] = "curvature",
+) -> HelixGroom: ...
+@overload
+def blend(
+    a: Groom, b: Groom, amount: float = 0.5, *, space: Literal["position"]
+) -> Groom: ...
+def recoil(
+    helices: HelixGroom,
+    *,
+    radius: float = 1.0,
+    frequency: float = 1.0,
+    keep: Literal["length", "turns", "advance", "centerline"] = "length",
+) -> HelixGroom: ...
+def armature(
+    helices: HelixGroom,
+    *,
+    clusters: int = 8,
+    lengths: ArrayLike = (1 / 3, 2 / 3, 1),
+    seed: int = 0,
+    blend: float = 0.0,
+) -> dict[str, Any]: ...
+def sculpt(
+    helices: HelixGroom,
+    pose: Pose | None = None,
+    *,
+    strands: ArrayLike | None = None,
+    at: ArrayLike | None = None,
+    anchors: ArrayLike | None = None,
+    weights: ArrayLike | None = None,
+    stiffness: float | None = None,
+    c: float | None = None,
+    bend_weights: Sequence[float] = (0.1, 1, 1),
+    tip_weight: float = 0.15,
+    solver: Literal["lm", "adam"] = "lm",
+    tolerance: float = 1e-6,
+    max_iterations: int = 200,
+    continuation: float = 0.25,
+) -> tuple[HelixGroom, Report]: ...
+
+class Sculptor:
+    def __init__(
+        self,
+        helices: HelixGroom,
+        *,
+        stiffness: float | None = None,
+        c: float | None = None,
+        bend_weights: Sequence[float] = (0.1, 1, 1),
+        tip_weight: float = 0.15,
+        solver: Literal["lm", "adam"] = "lm",
+        tolerance: float = 1e-6,
+        max_iterations: int = 200,
+        continuation: float = 0.25,
+    ) -> None: ...
+    @property
+    def rest(self) -> HelixGroom: ...
+    @property
+    def pose(self) -> HelixGroom: ...
+    def sculpt(
+        self,
+        pose: Pose | None = None,
+        *,
+        strands: ArrayLike | None = None,
+        at: ArrayLike | None = None,
+        anchors: ArrayLike | None = None,
+        weights: ArrayLike | None = None,
+    ) -> Report: ...
+    def sample(self, counts: ArrayLike) -> Groom: ...
+
+def summarize(helices: HelixGroom) -> Report: ...
+def measure(helices: HelixGroom) -> dict[str, NDArray[Any]]: ...
+def quantity(helices: HelixGroom, name: str) -> Floats: ...
+def defects(groom: Groom) -> Report: ...
+def render(
+    groom: Groom,
+    values: ArrayLike | None = None,
+    *,
+    view: Literal["front", "side", "back", "top", "three-quarter"] = "front",
+    size: tuple[int, int] = (1200, 1200),
+    hair: Color | None = None,
+    melanin: float | None = None,
+    redness: float = 0.1,
+    width: float | None = None,
+    background: Color | None = None,
+    margin: float = 0.05,
+    range: tuple[float, float] | None = None,
+    title: str = "",
+    unit: str = "",
+    colors: Literal["viridis", "cividis", "blue-red", "purple-green", "cyclic"] = "viridis",
+) -> NDArray[np.uint8]: ...
+def png(pixels: ArrayLike) -> bytes: ...

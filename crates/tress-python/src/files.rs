@@ -1,0 +1,68 @@
+//! Files in and out.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use tress::io::{Model, UsdCurves, WriteOptions};
+
+use crate::error::{TressError, not_read, not_written};
+use crate::groom::Groom;
+use crate::helix_groom::HelixGroom;
+
+/// Reads a file; its extension names the format.
+///
+/// Returns:
+///     A Groom, or a HelixGroom from a .tress file.
+///
+/// Raises:
+///     OSError: The file cannot be opened.
+///     TressError: Its extension is not known, or its contents are not a groom.
+#[pyfunction]
+pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyAny>> {
+    match py.detach(|| tress::io::read(path)).map_err(not_read)? {
+        Model::Polylines(groom) => Ok(Bound::new(py, Groom(groom))?.into_any()),
+        Model::Helices(helices) => Ok(Bound::new(py, HelixGroom(helices))?.into_any()),
+    }
+}
+
+/// Writes a file, whole or not at all; its extension names the format. A HelixGroom goes to a
+/// .tress file, a Groom to any other.
+///
+/// Args:
+///     path: The file.
+///     groom: What goes into it.
+///     usd_curves: What a USD file says lies between points: "linear" or "catmull-rom".
+///
+/// Returns:
+///     What the format has no place for, in words; an empty list where nothing is lost.
+///
+/// Raises:
+///     OSError: The disk does not take the file; what was there before is as it was.
+///     TressError: The extension is not known or not written, or a strand cannot be expressed.
+#[pyfunction]
+#[pyo3(signature = (path, groom, *, usd_curves="linear"))]
+pub(crate) fn write(
+    py: Python<'_>,
+    path: PathBuf,
+    groom: &Bound<'_, PyAny>,
+    usd_curves: &str,
+) -> PyResult<Vec<String>> {
+    let usd_curves = match usd_curves {
+        "linear" => UsdCurves::Linear,
+        "catmull-rom" => UsdCurves::CatmullRom,
+        other => {
+            return Err(TressError::new_err(format!(
+                "usd_curves: expected \"linear\" or \"catmull-rom\", found {other:?}"
+            )));
+        }
+    };
+    if let Ok(helices) = groom.cast::<HelixGroom>() {
+        let helices = &helices.get().0;
+        py.detach(|| tress::io::write_helices(path, helices)).map_err(not_written)?;
+        return Ok(Vec::new());
+    }
+    let groom = &groom.cast::<Groom>()?.get().0;
+    let options = WriteOptions { usd_curves };
+    let lost = py.detach(|| tress::io::write(path, groom, &options)).map_err(not_written)?;
+    Ok(lost.iter().map(ToString::to_string).collect())
+}

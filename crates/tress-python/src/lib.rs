@@ -1,0 +1,61 @@
+//! The Python package `tress`: numpy arrays in, numpy arrays out.
+//!
+//! This crate is `tress._tress`, the compiled part of the package; what Python imports is
+//! `python/tress`, with its type stubs. Classes hold what the facade's types hold, functions are
+//! the facade's functions with keywords for options, errors are exceptions (`TressError`). No
+//! function holds the interpreter's lock while it works.
+//!
+//! | module | Python sees |
+//! |---|---|
+//! | `groom`, `helix_groom` | the classes `Groom` and `HelixGroom` |
+//! | `fit`, `edit`, `sculpt`, `analysis`, `picture`, `files` | the functions of these topics |
+//! | `arrays`, `views` | arrays in, checked and copied once; arrays out, views of a groom's memory |
+//! | `plain`, `space`, `progress`, `error` | options and reports, units and axes, progress, exceptions |
+//!
+//! **Invariant**: a groom that Python holds never changes, so the arrays it hands out may share its
+//! memory.
+
+mod analysis;
+mod arrays;
+mod edit;
+mod error;
+mod files;
+mod fit;
+mod groom;
+mod helix_groom;
+mod picture;
+mod plain;
+mod progress;
+mod sculpt;
+mod space;
+mod views;
+
+/// Editing coiled hair in curvature space: the compiled part of the package `tress`.
+#[pyo3::pymodule]
+mod _tress {
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use super::analysis::{defects, measure, quantity, summarize};
+    #[pymodule_export]
+    use super::edit::{blend, groups, recoil, ruffle};
+    #[pymodule_export]
+    use super::error::TressError;
+    #[pymodule_export]
+    use super::files::{read, write};
+    #[pymodule_export]
+    use super::fit::{fit, sample};
+    #[pymodule_export]
+    use super::groom::Groom;
+    #[pymodule_export]
+    use super::helix_groom::HelixGroom;
+    #[pymodule_export]
+    use super::picture::{encode, render};
+    #[pymodule_export]
+    use super::sculpt::{Sculptor, armature, sculpt};
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -1,0 +1,307 @@
+"""The operations, each held to something that is known."""
+
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import tress
+from conftest import coil_points
+
+
+def test_a_coil_is_found_and_comes_back(coils):
+    helices, report = tress.fit(coils, elements=60)
+    assert len(helices) == 5 and report["elements"] == 240
+    assert report["kept"] == {"of a single point": 1}
+    assert report["rms_of_radius"] < 0.01
+    radii = tress.quantity(helices, "radius")
+    assert np.allclose(radii[:4], 0.5, rtol=0.02) and np.isnan(radii[4])
+    assert tress.quantity(helices, "handedness")[:4].tolist() == [1, -1, 1, -1]
+    back = tress.sample(helices, counts=coils.counts)
+    assert np.array_equal(back.counts, coils.counts) and back.unit == coils.unit
+    assert np.abs(back.positions - coils.positions).max() < 0.05
+    assert back.strand_attributes["wisp"].tolist() == [0, 1, 0, 1, 1]
+
+
+def test_fewer_elements_within_a_tolerance(coils):
+    near, close = (tress.fit(coils, tolerance=t)[1] for t in (0.01, 0.1))
+    assert near["greatest"] <= 0.01 and close["greatest"] <= 0.1
+    assert close["elements"] <= near["elements"]
+    of_radius = tress.fit(coils, tolerance_of_radius=0.02)[1]
+    assert of_radius["greatest_of_radius"] <= 0.021
+
+
+def test_options_are_checked(coils, helices):
+    with pytest.raises(TypeError, match="tolerence"):
+        tress.fit(coils, tolerence=0.1)
+    with pytest.raises(TypeError, match="one of"):
+        tress.fit(coils, elements=3, tolerance=0.1)
+    with pytest.raises(TypeError):
+        tress.fit(coils, elements="many")
+    with pytest.raises(TypeError):
+        tress.fit(helices)
+    with pytest.raises(TypeError, match="sideways"):
+        tress.recoil(helices, keep="sideways")
+    with pytest.raises(TypeError):
+        tress.ruffle(helices, seed=-1.5)
+    refused = [
+        lambda: tress.fit(coils, elements=0),
+        lambda: tress.fit(coils, tolerance=-1.0),
+        lambda: tress.fit(coils, tolerance=float("nan")),
+        lambda: tress.sample(helices, points=1),
+        lambda: tress.sample(helices, spacing=0.0),
+        lambda: tress.sample(helices, counts=[3]),
+        lambda: tress.sample(helices, counts=[-3, 3, 3, 3, 3]),
+        lambda: tress.ruffle(helices, probability=2.0),
+        lambda: tress.ruffle(helices, [0]),
+        lambda: tress.ruffle(helices, [0, 0, 0, 0, -1]),
+        lambda: tress.groups(helices, attribute="none"),
+        lambda: tress.groups(helices, clusters=9),
+        lambda: tress.blend(helices, helices, float("inf")),
+        lambda: tress.blend(helices, helices, space="time"),
+        lambda: tress.recoil(helices, radius=0.0),
+        lambda: tress.quantity(helices, "colour"),
+        lambda: tress.armature(helices, lengths=[0.5, 0.2]),
+    ]
+    for call in refused:
+        with pytest.raises(tress.TressError):
+            call()
+
+
+def test_numbers_of_numpy_are_numbers(coils):
+    helices, _ = tress.fit(coils, elements=np.int64(30), prior=np.float32(1e-3))
+    assert helices.counts.tolist() == [30, 30, 30, 30, 0]
+
+
+def test_progress_is_told_and_may_refuse(coils):
+    shares = []
+    with_progress, _ = tress.fit(coils, elements=60, progress=shares.append)
+    assert with_progress == tress.fit(coils, elements=60)[0]
+    assert shares[-1] == 1.0 and shares == sorted(shares)
+
+    def stop(_share):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        tress.fit(coils, elements=60, progress=stop)
+
+
+def test_the_lock_is_released_while_it_works():
+    strands = np.stack([coil_points(turns=40, origin=(i, 0, 0)) for i in range(300)])
+    groom = tress.Groom(strands)
+    ticks, done = [], threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    start = time.perf_counter()
+    tress.fit(groom)
+    end = time.perf_counter()
+    done.set()
+    thread.join()
+    during = [t for t in ticks if start + 0.1 * (end - start) < t < end - 0.1 * (end - start)]
+    assert during, f"no other thread ran in {end - start} s"
+
+
+def test_ruffling_swaps_elements_within_groups(helices):
+    groups = tress.groups(helices, attribute="wisp")
+    assert groups.tolist() == [0, 1, 0, 1, 1]
+    ruffled, report = tress.ruffle(helices, groups, probability=0.5, keep=10, seed=7)
+    assert report["candidates"] == 200 and 0 < report["replaced"] < 200
+    again = tress.ruffle(helices, groups, probability=0.5, keep=10, seed=7)[0]
+    assert ruffled == again
+    k0 = ruffled.curvatures[:, 0]
+    assert (k0[:60] > 0).all() and (k0[60:120] < 0).all(), "hands do not mix across groups"
+    assert tress.groups(helices.select([0, 1]), clusters=2).tolist() in ([0, 1], [1, 0])
+
+
+def test_blending_goes_from_one_to_the_other(coils, helices):
+    wide = tress.recoil(helices, radius=2.0, keep="turns")
+    assert np.allclose(tress.quantity(wide, "radius")[:4], 1.0, rtol=0.03)
+    assert tress.blend(helices, wide, 0.0).curvatures.tolist() == helices.curvatures.tolist()
+    middle = tress.blend(helices, wide)
+    assert np.allclose(middle.curvatures, (helices.curvatures + wide.curvatures) / 2)
+    darboux = tress.blend(helices, wide, 0.5, space="darboux")
+    assert not np.allclose(darboux.curvatures, middle.curvatures, atol=1e-6)
+    moved = coils.with_positions(coils.positions + 2.0)
+    half = tress.blend(coils, moved, 0.25, space="position")
+    assert np.allclose(half.positions, coils.positions + 0.5)
+    with pytest.raises(TypeError):
+        tress.blend(coils, moved, 0.25)
+    with pytest.raises(tress.TressError):
+        tress.blend(helices, helices.select([0]))
+
+
+def test_recoiling_along_the_centerline(helices):
+    tighter = tress.recoil(helices, radius=0.5, keep="centerline")
+    tips = [tress.sample(h, points=50)[0][-1] for h in (helices, tighter)]
+    assert np.linalg.norm(tips[1] - tips[0]) < 1.0
+    radii = tress.quantity(tighter, "radius")[:4]
+    assert np.allclose(radii, 0.25, rtol=0.1)
+
+
+def test_a_point_goes_to_its_anchor(helices):
+    tip = helices.joints(0)[0][-1]
+    anchor = tip + [0.0, -1.0, 1.0]
+    sculpted, report = tress.sculpt(helices, strands=[0], at=[1.0], anchors=[anchor])
+    assert np.linalg.norm(sculpted.joints(0)[0][-1] - anchor) < 0.01
+    assert report["moved"] == 1 and report["free"] == 4 and report["stops"] == {"converged": 1}
+    assert report["energy_after"] < report["energy_before"]
+    assert np.array_equal(sculpted.lengths, helices.lengths)
+    assert np.array_equal(sculpted.curvatures[60:], helices.curvatures[60:])
+    stiff, _ = tress.sculpt(helices, strands=[0], at=[1.0], anchors=[anchor], stiffness=1.0)
+    assert np.linalg.norm(stiff.joints(0)[0][-1] - anchor) > 0.3
+
+
+def test_anchors_without_a_meaning_are_refused(helices):
+    anchor = {"strands": [0], "at": [1.0], "anchors": [[0.0, 1.0, 0.0]]}
+    wrong = [
+        anchor | {"strands": [5]},
+        anchor | {"at": [1.5]},
+        anchor | {"at": [0.5, 1.0]},
+        anchor | {"anchors": [[0.0, np.nan, 0.0]]},
+        anchor | {"weights": [-1.0]},
+        anchor | {"stiffness": -1.0},
+        anchor | {"bend_weights": (0.0, 1.0, 1.0)},
+    ]
+    for keywords in wrong:
+        with pytest.raises(tress.TressError):
+            tress.sculpt(helices, **keywords)
+    for keywords in ({}, {"strands": [0]}, anchor | {"pose": {}}, anchor | {"c": 1, "stiffness": 1}):
+        with pytest.raises(TypeError):
+            tress.sculpt(helices, **keywords)
+
+
+def test_a_pose_moves_a_cluster(helices):
+    helices = helices.select([0, 1, 2, 3])
+    pose = tress.armature(helices, clusters=2, lengths=[0.5, 1.0])
+    assert len(pose["groups"]) == 2 and len(pose["groups"][0]["joints"]) == 2
+    still, report = tress.sculpt(helices, pose)
+    assert report["moved"] == 0 and still == helices
+    pose["groups"][0]["joints"][1]["translate"] = np.array([0.0, -0.5, 0.5])
+    moved, report = tress.sculpt(helices, pose)
+    assert 0 < report["moved"] < 4 and report["greatest_anchor_distance"] < 0.05
+    ron = "(anchors: [(strand: 0, at: 1.0, position: (0.2, 4.0, 0.0))])"
+    by_text, _ = tress.sculpt(helices, ron)
+    assert np.linalg.norm(by_text.joints(0)[0][-1] - [0.2, 4.0, 0.0]) < 0.01
+    for wrong in ("(anchor: [])", {"anchor": []}, {"groups": [{}]}, "("):
+        with pytest.raises(tress.TressError):
+            tress.sculpt(helices, wrong)
+    with pytest.raises(tress.TressError, match="another|for a groom"):
+        tress.sculpt(helices.select([0, 1]), pose)
+
+
+def test_a_sculptor_goes_on_from_its_last_pose(coils, helices):
+    sculptor = tress.Sculptor(helices, stiffness=1e-3)
+    tip = helices.joints(1)[0][-1]
+    steps = []
+    for drag in np.linspace(0.1, 1.0, 10):
+        anchors = [tip + [drag, -drag, 0.0]]
+        steps.append(sculptor.sculpt(strands=[1], at=[1.0], anchors=anchors)["iterations"])
+    assert np.linalg.norm(sculptor.pose.joints(1)[0][-1] - anchors[0]) < 0.02
+    assert sculptor.rest == helices
+    dragged = sculptor.sample(coils.counts)
+    assert np.array_equal(dragged.counts, coils.counts)
+    assert np.linalg.norm(dragged[1][-1] - anchors[0]) < 0.02
+    again = sculptor.sculpt(strands=[1], at=[1.0], anchors=anchors)["iterations"]
+    assert again < sum(steps)
+    sculptor.sculpt({})
+    assert sculptor.pose == helices
+
+
+def test_measures_and_summaries(coils, helices):
+    measures = tress.measure(helices)
+    assert measures["hand"][:4].tolist() == [1, -1, 1, -1]
+    assert np.allclose(measures["turns"][:4], 10, rtol=0.1)
+    assert np.isnan(measures["coil_radius"][4])
+    summary = tress.summarize(helices)
+    assert (summary["right_handed"], summary["left_handed"]) == (2, 2)
+    assert summary["coil_radius"]["median"] == pytest.approx(0.5, rel=0.02)
+    assert tress.summarize(helices.select([4]))["length"] is None
+    assert len(tress.quantity(helices, "twist")) == 240 + 5
+    found = tress.defects(coils)
+    assert found["strands"] == {"of a single point": {"count": 1, "first": 4}}
+
+
+@pytest.mark.parametrize("extension", ["npz", "obj", "ply", "usda", "hair"])
+def test_files_bring_back_what_they_hold(coils, tmp_path, extension):
+    path = tmp_path / f"gr\u00f6\u00dfe mit leer.{extension}"
+    lost = tress.write(path, coils)
+    back = tress.read(path)
+    assert isinstance(back, tress.Groom)
+    assert np.allclose(back.positions, coils.positions, atol=1e-5)
+    assert np.array_equal(back.offsets, coils.offsets)
+    # What is not lost is there: positions to 32 bits in most formats, all else exactly.
+    kept = (back.unit, back.up, back.strand_attributes.keys())
+    assert (lost == []) == (kept == (coils.unit, coils.up, coils.strand_attributes.keys()))
+    assert (back == coils) == (extension == "npz")
+
+
+def test_super_helices_are_kept_bit_for_bit(helices, tmp_path):
+    path = str(tmp_path / "groom.tress")
+    assert tress.write(path, helices) == []
+    assert tress.read(path) == helices
+
+
+def test_files_that_are_not_there_or_no_grooms(coils, helices, tmp_path):
+    with pytest.raises(FileNotFoundError) as caught:
+        tress.read(tmp_path / "none.npz")
+    assert str(caught.value.filename).endswith("none.npz")
+    (tmp_path / "bad.npz").write_bytes(b"PK no archive")
+    (tmp_path / "bad.tress").write_bytes(b"\0" * 9)
+    for name in ("bad.npz", "bad.tress", "groom.fbx", "groom"):
+        with pytest.raises(tress.TressError, match="bad|groom"):
+            tress.read(tmp_path / name)
+    with pytest.raises(OSError):
+        tress.write(tmp_path / "no folder" / "groom.npz", coils)
+    for path, groom in [("groom.tress", coils), ("groom.npz", helices), ("groom.fbx", coils)]:
+        with pytest.raises((tress.TressError, TypeError)):
+            tress.write(tmp_path / path, groom)
+    with pytest.raises(TypeError):
+        tress.write(tmp_path / "groom.npz", np.zeros((3, 3)))
+    with pytest.raises(tress.TressError):
+        tress.write(tmp_path / "groom.usda", coils, usd_curves="bezier")
+    assert not list(tmp_path.glob("groom*"))
+
+
+def test_pictures_are_pixels(coils, helices):
+    pixels = tress.render(coils, size=(160, 120), view="three-quarter", melanin=0.2)
+    assert pixels.shape == (120, 160, 3) and pixels.dtype == np.uint8
+    assert 10 < len(np.unique(pixels.reshape(-1, 3), axis=0))
+    by_radius = tress.render(
+        coils, tress.quantity(helices, "radius"), size=(160, 120), title="radius", unit="cm"
+    )
+    assert not np.array_equal(pixels, by_radius)
+    by_point = tress.render(coils, coils.positions[:, 1], size=(160, 120), colors="cividis")
+    assert not np.array_equal(by_radius, by_point)
+    assert tress.png(pixels).startswith(b"\x89PNG")
+    with pytest.raises(tress.TressError):
+        tress.render(coils, [1.0, 2.0])
+    with pytest.raises(tress.TressError):
+        tress.render(coils, size=(0, 10))
+    with pytest.raises(TypeError):
+        tress.render(coils, view="below")
+    with pytest.raises(tress.TressError):
+        tress.png(pixels[:, :, :2])
+    with pytest.raises(tress.TressError):
+        tress.png(np.full((2, 2, 3), 256))
+
+
+def test_everything_is_documented_and_typed():
+    stubs = (tress.__path__[0] + "/__init__.pyi",)
+    with open(stubs[0]) as file:
+        text = file.read()
+    for name in tress._tress.__all__:
+        thing = getattr(tress, name)
+        if callable(thing):
+            assert thing.__doc__ and len(thing.__doc__) > 30, f"{name} has no document"
+            assert f"def {name}(" in text or f"class {name}" in text, f"{name} has no stub"
+        if isinstance(thing, type) and not issubclass(thing, Exception):
+            for member in (m for m in vars(thing) if not m.startswith("_")):
+                assert f"def {member}(" in text, f"{name}.{member} has no stub"
+                assert vars(thing)[member].__doc__, f"{name}.{member} has no document"
