@@ -1,0 +1,310 @@
+"""Every operator, run without a window on hair whose curl is known."""
+
+import json
+
+import bpy
+import numpy as np
+import pytest
+import tress
+
+COUNT, POINTS = 40, 81
+
+
+def coil(hand, radius=0.05, turns=10.0, points=POINTS):
+    """A coil that hangs down from the origin; right-handed where `hand` is 1."""
+    angle = np.linspace(0, 2 * np.pi * turns, points)
+    height = -np.linspace(0, 1, points)
+    strand = [radius * np.cos(angle), -hand * radius * np.sin(angle), height]
+    return np.stack(strand, axis=1) - [radius, 0, 0]
+
+
+def make_hair(name="hair", count=COUNT, **shape):
+    """An active, selected curves object of coils in a square, right- and left-handed in turn."""
+    side = int(np.ceil(np.sqrt(count)))
+    curves = bpy.data.hair_curves.new(name)
+    points = shape.get("points", POINTS)
+    curves.add_curves([points] * count)
+    roots = [[0.2 * (i % side), 0.2 * (i // side), 0] for i in range(count)]
+    strands = [coil(1 if i % 2 == 0 else -1, **shape) + root for i, root in enumerate(roots)]
+    curves.position_data.foreach_set("vector", np.concatenate(strands).astype(np.float32).ravel())
+    obj = bpy.data.objects.new(name, curves)
+    bpy.context.collection.objects.link(obj)
+    activate(obj)
+    return obj
+
+
+def activate(*objects):
+    for obj in bpy.context.selected_objects:
+        obj.select_set(False)
+    for obj in objects:
+        obj.select_set(True)
+    bpy.context.view_layer.objects.active = objects[0]
+    bpy.context.view_layer.update()
+
+
+def positions(obj):
+    values = np.empty(len(obj.data.points) * 3, np.float32)
+    obj.data.position_data.foreach_get("vector", values)
+    return values.reshape(-1, 3)
+
+
+def lengths(obj):
+    points = positions(obj).reshape(-1, POINTS, 3)
+    return np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
+
+
+def numbers(obj, name):
+    attribute = obj.data.attributes[name]
+    values = np.empty(len(attribute.data), np.float32)
+    attribute.data.foreach_get("value", values)
+    return values
+
+
+def test_fit_reports_and_moves_nothing(scene):
+    obj = make_hair()
+    before = positions(obj)
+    assert bpy.ops.tress.fit() == {"FINISHED"}
+    assert np.array_equal(positions(obj), before)
+    report = json.loads(obj["tress_fit"])
+    assert report["strands"] == COUNT and report["rms_of_radius"] < 0.01
+    summary = report["summary"]
+    assert (summary["right_handed"], summary["left_handed"]) == (COUNT // 2, COUNT // 2)
+    assert summary["coil_radius"]["median"] == pytest.approx(0.05, rel=0.03)
+    assert numbers(obj, "tress_error").max() < 0.005
+
+
+def test_ruffle_moves_beyond_the_root_and_restore_brings_back(scene):
+    obj = make_hair()
+    before = positions(obj)
+    assert bpy.ops.tress.ruffle(probability=0.5, root=0.5, clusters=4, seed=3) == {"FINISHED"}
+    moved = np.linalg.norm(positions(obj) - before, axis=1).reshape(COUNT, POINTS)
+    assert moved[:, : POINTS // 2 - 1].max() < 0.005 and moved[:, -1].max() > 0.01
+    first = positions(obj)
+    assert bpy.ops.tress.restore() == {"FINISHED"}
+    assert np.array_equal(positions(obj), before)
+    bpy.ops.tress.ruffle(probability=0.5, root=0.5, clusters=4, seed=3)
+    assert np.array_equal(positions(obj), first), "the same seed gives the same hair"
+
+
+def test_recoil_changes_radii_along_the_same_lines(scene):
+    obj = make_hair()
+    before = positions(obj).reshape(COUNT, POINTS, 3).mean(axis=1)
+    assert bpy.ops.tress.recoil(radius=0.5) == {"FINISHED"}
+    assert np.linalg.norm(positions(obj).reshape(COUNT, POINTS, 3).mean(axis=1) - before) < 0.5
+    bpy.ops.tress.color(quantity="radius", material=False)
+    assert np.median(numbers(obj, "tress_radius")) == pytest.approx(0.025, rel=0.1)
+
+
+def test_blend_between_two_objects_and_with_the_original(scene, addon):
+    wide = make_hair("wide", radius=0.08)
+    wide.location.x = 5.0
+    obj = make_hair()
+    before = positions(obj)
+    activate(obj, wide)
+    assert bpy.ops.tress.blend(amount=0.0) == {"FINISHED"}
+    assert np.abs(positions(obj) - before).max() < 0.005
+    assert bpy.ops.tress.blend(amount=0.5, space="position") == {"FINISHED"}
+    # Half way to an object that stands 5 away.
+    assert positions(obj)[0, 0] == pytest.approx(2.5, abs=0.01)
+    activate(obj)
+    assert bpy.ops.tress.blend(amount=1.0, space="position") == {"FINISHED"}
+    assert np.abs(positions(obj) - before).max() < 1e-6
+    few = make_hair("few", count=3)
+    activate(obj, few)
+    with pytest.raises(RuntimeError, match="strands must correspond"):
+        bpy.ops.tress.blend()
+    activate(few)
+    with pytest.raises(RuntimeError, match="second hair"):
+        bpy.ops.tress.blend()
+
+
+@pytest.mark.parametrize("quantity", ["radius", "turns", "length", "curvature", "twist"])
+def test_colors_are_written_as_attributes(scene, quantity):
+    obj = make_hair()
+    assert bpy.ops.tress.color(quantity=quantity) == {"FINISHED"}
+    values = numbers(obj, f"tress_{quantity}")
+    assert len(values) == COUNT * POINTS and np.isfinite(values).all()
+    color = obj.data.attributes["tress_color"]
+    assert (color.data_type, color.domain) == ("FLOAT_COLOR", "POINT")
+    assert obj.data.materials[0].name.startswith("Tress Colors")
+    expected = {"radius": 0.05, "turns": 10.0, "twist": None}.get(quantity)
+    if expected:
+        assert np.median(values) == pytest.approx(expected, rel=0.05)
+    if quantity == "twist":
+        assert values[40] > 0 > values[POINTS + 40]
+
+
+def test_a_dragged_empty_moves_its_wisp_and_keeps_lengths(scene, addon):
+    obj = make_hair()
+    obj.rotation_euler = (0.3, 0.2, 0.1)
+    obj.location = (1, 2, 3)
+    bpy.context.view_layer.update()
+    before, length = positions(obj), lengths(obj)
+    assert bpy.ops.tress.armature_add(clusters=4, joints=2) == {"FINISHED"}
+    empties = addon.rig.joints(obj)
+    assert len(empties) == 8
+    assert np.array_equal(positions(obj), before), "an armature at rest moves nothing"
+    tip = next(e for e in empties if e.tress_joint.at == 1.0)
+    tip.location.z += 0.1
+    tip.location.x += 0.1
+    bpy.context.view_layer.update()
+    moved = np.linalg.norm(positions(obj) - before, axis=1).reshape(COUNT, POINTS)
+    clusters = np.empty(COUNT, np.int32)
+    obj.data.attributes["tress_cluster"].data.foreach_get("value", clusters)
+    own = clusters == tip.tress_joint.cluster
+    assert moved[own, -1] == pytest.approx(np.hypot(0.1, 0.1), abs=0.01)
+    assert moved[own, 0].max() < 1e-4 and moved[~own].max() < 0.005
+    assert np.abs(lengths(obj) / length - 1).max() < 0.01
+    # The joint nearer the root takes the tip's along, as bones do.
+    root = tip.parent
+    assert root in empties
+    root.location.x += 0.05
+    bpy.context.view_layer.update()
+    assert moved[own, -1].max() < np.linalg.norm(positions(obj) - before, axis=1).max()
+    sculpted = positions(obj)
+    bpy.ops.tress.armature_update()
+    assert np.abs(positions(obj) - sculpted).max() < 0.01
+    assert bpy.ops.tress.armature_remove(apply=True) == {"FINISHED"}
+    assert not addon.rig.joints(obj) and "tress_rest" not in obj.data.attributes
+    assert not [c for c in bpy.data.collections if "Armature" in c.name]
+    assert np.abs(positions(obj) - sculpted).max() < 0.01
+    bpy.ops.tress.restore()
+    assert np.array_equal(positions(obj), before)
+
+
+def test_turning_and_scaling_an_empty(scene, addon):
+    obj = make_hair(count=4)
+    bpy.ops.tress.armature_add(clusters=1, joints=1, stiffness=0.0)
+    (empty,) = addon.rig.joints(obj)
+    before = positions(obj).reshape(4, POINTS, 3)[:, -1]
+    center = before.mean(axis=0)
+    empty.rotation_mode = "XYZ"
+    turn = empty.matrix_basis.copy()
+    from mathutils import Matrix
+
+    empty.matrix_basis = (
+        Matrix.Translation(center) @ Matrix.Rotation(np.pi / 2, 4, "Z")
+        @ Matrix.Translation(-center.astype(float)) @ turn
+    )
+    bpy.context.view_layer.update()
+    after = positions(obj).reshape(4, POINTS, 3)[:, -1]
+    offset = before - center
+    expected = center + np.stack([-offset[:, 1], offset[:, 0], offset[:, 2]], axis=1)
+    assert np.abs(after - expected).max() < 0.01
+    bpy.ops.tress.armature_remove(apply=False)
+    assert np.abs(positions(obj).reshape(4, POINTS, 3)[:, -1] - before).max() < 1e-6
+
+
+def test_an_armature_survives_saving_and_loading(scene, addon, tmp_path):
+    obj = make_hair(count=6)
+    bpy.ops.tress.armature_add(clusters=2, joints=2)
+    path = str(tmp_path / "rig.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects["hair"]
+    before = positions(obj)
+    empties = addon.rig.joints(obj)
+    assert len(empties) == 4
+    empties[-1].location.x += 0.1
+    bpy.context.view_layer.update()
+    assert np.abs(positions(obj) - before).max() > 0.05
+
+
+def test_undo_takes_an_edit_back(scene):
+    make_hair()
+    bpy.ops.ed.undo_push(message="hair")
+    before = positions(bpy.data.objects["hair"])
+    bpy.ops.tress.recoil(radius=0.5)
+    bpy.ops.ed.undo_push(message="recoil")
+    assert np.abs(positions(bpy.data.objects["hair"]) - before).max() > 0.01
+    if not bpy.ops.ed.undo.poll():
+        pytest.skip("this Blender has no undo without a window")
+    bpy.ops.ed.undo()
+    assert np.array_equal(positions(bpy.data.objects["hair"]), before)
+
+
+def test_files_go_out_and_come_in(scene, tmp_path):
+    obj = make_hair()
+    before = positions(obj)
+    for name in ("hair gr\u00f6\u00dfe.npz", "hair.usda", "hair.tress"):
+        path = str(tmp_path / name)
+        assert bpy.ops.tress.export_groom(filepath=path) == {"FINISHED"}
+        assert bpy.ops.tress.import_groom(filepath=path) == {"FINISHED"}
+        back = bpy.context.object
+        assert back != obj and len(back.data.curves) == COUNT
+        if not name.endswith(".tress"):
+            assert np.abs(positions(back) - before).max() < 1e-5
+        activate(obj)
+    with pytest.raises(RuntimeError, match="none.npz"):
+        bpy.ops.tress.import_groom(filepath=str(tmp_path / "none.npz"))
+
+
+def test_strands_that_are_no_curves_stay(scene):
+    curves = bpy.data.hair_curves.new("odd")
+    curves.add_curves([1, 4, 2, 20])
+    points = np.concatenate([np.zeros((1, 3)), np.full((4, 3), np.nan), np.eye(3)[:2], coil(1, points=20)])
+    curves.position_data.foreach_set("vector", points.astype(np.float32).ravel())
+    obj = bpy.data.objects.new("odd", curves)
+    bpy.context.collection.objects.link(obj)
+    activate(obj)
+    before = positions(obj)
+    assert bpy.ops.tress.fit() == {"FINISHED"}
+    assert sum(json.loads(obj["tress_fit"])["kept"].values()) == 2
+    assert bpy.ops.tress.recoil(radius=2.0, keep="length") == {"FINISHED"}
+    after = positions(obj)
+    assert np.array_equal(after[:5], before[:5], equal_nan=True)
+    assert np.abs(after[7:] - before[7:]).max() > 0.01
+    assert bpy.ops.tress.color(quantity="radius") == {"FINISHED"}
+
+
+def test_hair_without_strands_is_no_trouble(scene):
+    obj = bpy.data.objects.new("bald", bpy.data.hair_curves.new("bald"))
+    bpy.context.collection.objects.link(obj)
+    activate(obj)
+    for operator in (bpy.ops.tress.fit, bpy.ops.tress.ruffle, bpy.ops.tress.recoil):
+        assert operator() == {"FINISHED"}
+    assert bpy.ops.tress.color() == {"FINISHED"}
+    with pytest.raises(RuntimeError, match="no strands"):
+        bpy.ops.tress.armature_add()
+
+
+def test_operators_want_hair(scene):
+    bpy.ops.object.empty_add()
+    for operator in ("fit", "ruffle", "recoil", "blend", "restore", "color", "armature_add"):
+        assert not getattr(bpy.ops.tress, operator).poll()
+
+
+def test_the_panel_draws(scene, addon):
+    assert addon.panel.TRESS_PT_panel.is_registered
+    obj = make_hair(count=4)
+    bpy.ops.tress.fit()
+
+    class Layout:
+        """Takes whatever a panel asks of a layout."""
+
+        def __init__(self):
+            self.words = []
+
+        def operator(self, name, **_keywords):
+            module, _, function = name.partition(".")
+            assert hasattr(getattr(bpy.ops, module), function)
+            getattr(getattr(bpy.ops, module), function).get_rna_type()
+            self.words.append(name)
+            return type("Properties", (), {})()
+
+        def label(self, text="", **_keywords):
+            self.words.append(text)
+
+        def column(self, **_keywords):
+            return self
+
+        box = column
+
+    panel = type("Panel", (), {"layout": Layout()})()
+    addon.panel.TRESS_PT_panel.draw(panel, bpy.context)
+    assert "4 strands, 320 elements" in panel.layout.words
+    bpy.ops.tress.armature_add()
+    addon.panel.TRESS_PT_panel.draw(panel, bpy.context)
+    assert "tress.armature_remove" in panel.layout.words
+    activate(obj)
+    assert isinstance(tress.__version__, str)
