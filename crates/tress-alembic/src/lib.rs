@@ -1,8 +1,9 @@
-//! Alembic curves written to Ogawa archives (`.abc`), in pure Rust.
+//! Alembic curves in Ogawa archives (`.abc`), written and read.
 //!
-//! Knows curves and nothing of what they are curves of: positions, counts, widths, texture
-//! coordinates, any geometry parameters, user properties, transforms above them, and samples over
-//! time. Reading is not done here; the `ogawa-rs` crate does it.
+//! Knows curves and nothing of what they are curves of. Written are positions, counts, widths,
+//! texture coordinates, any geometry parameters, user properties, transforms above the curves, and
+//! samples over time ([`Archive`]). Read are the objects and properties of any archive, with their
+//! samples ([`Reader`]); what they mean is left to the caller.
 //!
 //! ```
 //! use std::io::Cursor;
@@ -57,6 +58,7 @@ mod digest;
 mod error;
 mod object;
 mod property;
+mod read;
 mod samples;
 mod schema;
 mod texts;
@@ -64,5 +66,6 @@ mod values;
 
 pub use archive::{Archive, Object, Time};
 pub use error::Error;
+pub use read::{MetaData, Property, ReadError, ReadObject, Reader, Sample};
 pub use schema::{CurvesSample, Kind, Parameter, Scope};
 pub use values::{Numbers, Values};

@@ -155,10 +155,13 @@ mod tests {
     fn bounds_are_around_what_is_finite() {
         let nan = f32::NAN;
         let points: Vec<[f32; 3]> = (0..9_u8).map(|i| [f32::from(i), 1.0, -2.0]).collect();
-        assert_eq!(bounds(&points), [0.0, 1.0, -2.0, 8.0, 1.0, -2.0]);
+        let bits = |points: &[[f32; 3]]| bounds(points).map(f64::to_bits);
+        let expected = |corners: [f64; 6]| corners.map(f64::to_bits);
+        assert_eq!(bits(&points), expected([0.0, 1.0, -2.0, 8.0, 1.0, -2.0]));
         let odd = [[1.0, 2.0, 3.0], [f32::INFINITY, 0.0, 0.0], [nan, nan, nan]];
-        assert_eq!(bounds(&odd), [1.0, 2.0, 3.0, 1.0, 2.0, 3.0]);
-        assert_eq!(bounds(&[]), [f64::MAX, f64::MAX, f64::MAX, f64::MIN, f64::MIN, f64::MIN]);
-        assert_eq!(bounds(&[[nan, 0.0, 0.0]]), bounds(&[]));
+        assert_eq!(bits(&odd), expected([1.0, 2.0, 3.0, 1.0, 2.0, 3.0]));
+        let (low, high) = (f64::MIN, f64::MAX);
+        assert_eq!(bits(&[]), expected([high, high, high, low, low, low]));
+        assert_eq!(bits(&[[nan, 0.0, 0.0]]), bits(&[]));
     }
 }

@@ -31,6 +31,7 @@ mod tests;
 
 use std::collections::HashMap;
 
+use glam::DVec3;
 use tress_geometry::Column;
 use tress_geometry::curves::CubicBasis;
 
@@ -126,6 +127,18 @@ impl BasisCurves {
             Layout::Points { count, closed, .. } => count + usize::from(closed),
             Layout::Segments { basis, count } => count * samples_per_segment(basis) + 1,
         })
+    }
+
+    /// The points of the result.
+    pub(crate) fn points(&self, controls: Vec<DVec3>) -> Vec<DVec3> {
+        if self.keeps_every_point() {
+            return controls;
+        }
+        let values = controls.iter().flat_map(DVec3::to_array).collect();
+        match self.at_control_points(Column::Float { components: 3, values }) {
+            Column::Float { values, .. } => values.chunks_exact(3).map(DVec3::from_slice).collect(),
+            Column::Int(_) => Vec::new(),
+        }
     }
 
     /// A column with one row a control point, at the points of the result. Positions are such a

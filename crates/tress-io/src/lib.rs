@@ -51,7 +51,6 @@ mod counts;
 pub mod ct2hair;
 pub mod data;
 mod error;
-mod foreign;
 mod format;
 mod frames;
 pub mod hair;

@@ -58,7 +58,7 @@ fn what_is_no_archive_is_said() {
 fn archives_that_point_outside_or_at_themselves_are_errors() {
     let data = 1 << 63;
     for words in [
-        vec![6, data, data, 0, data, data, data],
+        vec![6, data, data, data, data, data, data],
         vec![6, data | 72, data | 72, 0, data | 72, data | 72, data | 72, 4, 0],
         vec![6, data | 72, data | 72, 16, data | 72, data | 72, data | 72, 4, 0],
         vec![6, data | 72, data | 72, 0, data | 72, data | 80, data | 72, 4, 16, 0, u64::MAX],

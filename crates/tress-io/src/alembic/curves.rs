@@ -1,12 +1,12 @@
 //! One curves object as a groom.
 
 use glam::{DMat4, DVec3};
-use ogawa_rs::{ObjectReader, PodArray, PropertyReader};
+use tress_alembic::{Property, ReadObject};
 use tress_geometry::curves::CubicBasis;
-use tress_geometry::{Column, Groom, Strands, names};
+use tress_geometry::{Groom, Strands, names};
 
 use super::parameters::FIELDS;
-use super::{Hierarchy, properties};
+use super::scene::Scene;
 use crate::basis_curves::{self, BasisCurves, CurveType, Rows, Wrap};
 use crate::{ParseError, Place, Problem};
 
@@ -17,58 +17,60 @@ const NATIVE: [(&str, &str); 2] = [("width", names::WIDTH), ("uv", names::ROOT_U
 
 /// The curves of `object`, evaluated and moved by `world`.
 pub(super) fn read(
-    hierarchy: &mut Hierarchy,
-    object: &ObjectReader,
+    scene: &Scene<'_>,
+    object: &ReadObject,
     world: DMat4,
 ) -> Result<Groom, ParseError> {
-    let name = &object.header.full_name;
-    let place = Place::Part(name.clone());
-    let Some(geometry) = properties::of_object(hierarchy, object, ".geom")? else {
+    let place = Place::Part(object.path.clone());
+    let Some(geometry) = scene.get(&object.properties, ".geom")? else {
         return Err(Problem::unexpected("a property .geom", "none").at(place));
     };
-    let Some(curves) = topology(hierarchy, &geometry, &place)? else {
+    let Some(curves) = topology(scene, &geometry, &place)? else {
         return Ok(Groom::new(Strands::default()));
     };
-    let positions = positions(hierarchy, &geometry, &curves, world, &place)?;
+    let positions = positions(scene, &geometry, &curves, world, &place)?;
     let strands = Strands::from_counts(curves.strand_counts(), positions)
         .map_err(|error| Problem::Unsupported(error.to_string()).at(place.clone()))?;
     let mut groom = Groom::new(strands);
-    if let Some(parameters) = properties::get(hierarchy, &geometry, ".arbGeomParams", &place)? {
-        for name in properties::names(&parameters) {
+    if let Some(parameters) = scene.get(&geometry, ".arbGeomParams")? {
+        for parameter in scene.properties(&parameters)? {
+            let name = parameter.name.as_str();
             let field = FIELDS.iter().find(|field| field.theirs == name);
             let ours = match field {
                 Some(field) => field.ours,
                 None if name == GROOM_WIDTH => names::WIDTH,
-                None => name.as_str(),
+                None => name,
             };
-            attach(hierarchy, &parameters, &name, ours, &curves, &mut groom, &place)?;
+            attach(scene, &parameter, ours, &curves, &mut groom, &place)?;
         }
     }
     for (theirs, ours) in NATIVE {
-        attach(hierarchy, &geometry, theirs, ours, &curves, &mut groom, &place)?;
+        if let Some(parameter) = scene.get(&geometry, theirs)? {
+            attach(scene, &parameter, ours, &curves, &mut groom, &place)?;
+        }
     }
     Ok(groom)
 }
 
 /// Type, wrap and counts; nothing for an object without curves.
 fn topology(
-    hierarchy: &mut Hierarchy,
-    geometry: &PropertyReader,
+    scene: &Scene<'_>,
+    geometry: &Property,
     place: &Place,
 ) -> Result<Option<BasisCurves>, ParseError> {
-    let mut first = |name: &str| match properties::get(hierarchy, geometry, name, place)? {
-        Some(property) => properties::sample(hierarchy, &property, place),
+    let sample = |name: &str| match scene.get(geometry, name)? {
+        Some(property) => scene.sample(&property),
         None => Ok(None),
     };
-    let Some(counts) = first("nVertices")? else { return Ok(None) };
-    let PodArray::I32(counts) = counts else {
-        return Err(Problem::unexpected("32-bit counts", "others").at(place.clone()));
+    let Some(counts) = sample("nVertices")? else { return Ok(None) };
+    let Some(counts) = counts.integers() else {
+        return Err(Problem::unexpected("counts of points", "other values").at(place.clone()));
     };
     let counts: Result<Vec<usize>, _> = counts.into_iter().map(usize::try_from).collect();
     let counts = counts.map_err(|_| {
         Problem::unexpected("numbers of points", "a negative number").at(place.clone())
     })?;
-    let Some(PodArray::U8(kind)) = first("curveBasisAndType")? else {
+    let Some(kind) = sample("curveBasisAndType")?.and_then(|sample| sample.integers()) else {
         return Err(Problem::unexpected("a type of curves", "none").at(place.clone()));
     };
     let [kind, wrap, basis, ..] = kind[..] else {
@@ -94,13 +96,14 @@ fn topology(
         }
     };
     let is_linear = kind == CurveType::Linear;
-    if let Some(PodArray::F32(weights)) = first("w")?
+    let numbers = |name: &str| Ok::<_, ParseError>(sample(name)?.and_then(|s| s.floats()));
+    if let Some(weights) = numbers("w")?
         && !is_linear
-        && weights.iter().any(|weight| (weight - 1.0).abs() > f32::EPSILON)
+        && weights.iter().any(|weight| (weight - 1.0).abs() > f64::from(f32::EPSILON))
     {
         return refuse("curves with weights");
     }
-    if let Some(PodArray::F32(knots)) = first(".knots")?
+    if let Some(knots) = numbers(".knots")?
         && !is_linear
         && !evenly_spaced(&knots)
     {
@@ -112,7 +115,7 @@ fn topology(
 
 /// Whether knots lie one apart, by the first two; each curve begins anew, below where the last
 /// ended.
-fn evenly_spaced(knots: &[f32]) -> bool {
+fn evenly_spaced(knots: &[f64]) -> bool {
     let steps = || knots.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| 0.0 <= *step);
     let first = steps().next().unwrap_or(0.0);
     steps().all(|step| (step - first).abs() <= 1e-4 * first)
@@ -120,64 +123,54 @@ fn evenly_spaced(knots: &[f32]) -> bool {
 
 /// The points of the result in the world.
 fn positions(
-    hierarchy: &mut Hierarchy,
-    geometry: &PropertyReader,
+    scene: &Scene<'_>,
+    geometry: &Property,
     curves: &BasisCurves,
     world: DMat4,
     place: &Place,
 ) -> Result<Vec<DVec3>, ParseError> {
-    let controls = match properties::get(hierarchy, geometry, "P", place)? {
-        Some(property) => properties::column(hierarchy, &property, place)?,
+    let sample = match scene.get(geometry, "P")? {
+        Some(property) => scene.sample(&property)?,
         None => None,
     };
-    let controls = match controls {
-        Some((column @ Column::Float { components: 3, .. }, _)) => column,
-        Some(_) => {
+    let controls: Vec<DVec3> = match sample.map(|sample| sample.vectors()) {
+        Some(Some(points)) => points.map(|[x, y, z]| glam::Vec3::new(x, y, z).as_dvec3()).collect(),
+        Some(None) => {
             let problem = Problem::unexpected("3D points of 32 bits", "other numbers");
             return Err(problem.at(place.clone()));
         }
-        None => Column::Float { components: 3, values: Vec::new() },
+        None => Vec::new(),
     };
-    let rows = controls.rows();
+    let rows = controls.len();
     if rows != curves.control_points() {
         let expected = format!("{} points, as the counts sum to", curves.control_points());
         return Err(Problem::unexpected(expected, rows.to_string()).at(place.clone()));
     }
-    let Column::Float { values, .. } = curves.at_control_points(controls) else {
-        return Ok(Vec::new());
-    };
-    let points = values.chunks_exact(3).map(DVec3::from_slice);
+    let mut points = curves.points(controls);
     // Not even the last bit changes where nothing moves.
-    Ok(if world == DMat4::IDENTITY {
-        points.collect()
-    } else {
-        points.map(|point| world.transform_point3(point)).collect()
-    })
+    if world != DMat4::IDENTITY {
+        points.iter_mut().for_each(|point| *point = world.transform_point3(*point));
+    }
+    Ok(points)
 }
 
-/// Adds the parameter `theirs` of a compound to `groom` as `ours`, if it is there and numeric.
+/// Adds a parameter to `groom` as `ours`, if it is numeric.
 fn attach(
-    hierarchy: &mut Hierarchy,
-    compound: &PropertyReader,
-    theirs: &str,
+    scene: &Scene<'_>,
+    parameter: &Property,
     ours: &str,
     curves: &BasisCurves,
     groom: &mut Groom,
     place: &Place,
 ) -> Result<(), ParseError> {
-    let Some(property) = properties::get(hierarchy, compound, theirs, place)? else {
-        return Ok(());
-    };
-    let Some((column, rows)) = properties::column(hierarchy, &property, place)? else {
-        return Ok(());
-    };
+    let Some((column, rows)) = scene.column(parameter, place)? else { return Ok(()) };
     // Blender does not say what its widths are of.
     let uniform = column.rows() == curves.len() && column.rows() != curves.control_points();
     let rows = rows.unwrap_or(if uniform { Rows::Uniform } else { Rows::Vertex });
     basis_curves::attach(groom, curves, ours, column, rows).map_err(|error| {
         let name = match place {
-            Place::Part(object) => format!("{object}.{theirs}"),
-            _ => theirs.to_owned(),
+            Place::Part(object) => format!("{object}.{}", parameter.name),
+            _ => parameter.name.clone(),
         };
         Problem::Unsupported(error.to_string()).at(Place::Part(name))
     })

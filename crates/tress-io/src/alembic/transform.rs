@@ -6,48 +6,38 @@
 //! transform counts.
 
 use glam::{DMat4, DVec3};
-use ogawa_rs::{ObjectReader, PodArray};
+use tress_alembic::ReadObject;
 
-use super::{Hierarchy, properties};
+use super::scene::Scene;
 use crate::{ParseError, Place, Problem};
 
 /// What takes points below `object` to the world, where `parent` does so for points beside it.
 pub(super) fn world(
-    hierarchy: &mut Hierarchy,
-    object: &ObjectReader,
+    scene: &Scene<'_>,
+    object: &ReadObject,
     parent: DMat4,
 ) -> Result<DMat4, ParseError> {
-    let place = Place::Part(object.header.full_name.clone());
-    let Some(xform) = properties::of_object(hierarchy, object, ".xform")? else {
-        return Ok(parent);
+    let Some(xform) = scene.get(&object.properties, ".xform")? else { return Ok(parent) };
+    let sample = |name: &str| match scene.get(&xform, name)? {
+        Some(property) => scene.sample(&property),
+        None => Ok(None),
     };
-    let mut get = |name: &str| properties::get(hierarchy, &xform, name, &place);
-    let (ops, values, inherits) = (get(".ops")?, get(".vals")?, get(".inherits")?);
-    let inherits = match inherits {
-        Some(inherits) => properties::flag(hierarchy, &inherits, &place)?.unwrap_or(true),
-        None => true,
-    };
-    let ops = match ops {
-        Some(ops) => properties::sample(hierarchy, &ops, &place)?,
-        None => None,
-    };
-    let values = match values {
-        Some(values) => properties::sample(hierarchy, &values, &place)?,
-        None => None,
-    };
+    let inherits = sample(".inherits")?.and_then(|sample| sample.integers()?.first().copied());
+    let ops = sample(".ops")?.and_then(|sample| sample.integers());
+    let values = sample(".vals")?.and_then(|sample| sample.floats());
     let local = match (ops, values) {
-        (Some(PodArray::U8(ops)), Some(PodArray::F64(values))) => product(&ops, &values)
-            .ok_or_else(|| {
-                let found = format!("{} operations with {} numbers", ops.len(), values.len());
-                Problem::unexpected("operations that match their numbers", found).at(place)
-            })?,
+        (Some(ops), Some(values)) => product(&ops, &values).ok_or_else(|| {
+            let found = format!("{} operations with {} numbers", ops.len(), values.len());
+            let place = Place::Part(object.path.clone());
+            Problem::unexpected("operations that match their numbers", found).at(place)
+        })?,
         _ => DMat4::IDENTITY,
     };
-    Ok(if inherits { parent * local } else { local })
+    Ok(if inherits == Some(0) { local } else { parent * local })
 }
 
 /// The operations one after the other; nothing if they do not use up the values.
-fn product(ops: &[u8], mut values: &[f64]) -> Option<DMat4> {
+fn product(ops: &[i64], mut values: &[f64]) -> Option<DMat4> {
     let mut matrix = DMat4::IDENTITY;
     for op in ops {
         let count = match op >> 4 {

@@ -2,6 +2,7 @@
 
 mod crate_file;
 mod curves;
+mod foreign;
 mod layers;
 mod transform;
 mod values;
@@ -12,7 +13,7 @@ use openusd::{sdf, usd};
 use tress_geometry::{Groom, UpAxis};
 
 use crate::basis_curves::join;
-use crate::foreign::{no_panic, one_line};
+use foreign::{no_panic, one_line};
 use crate::{ParseError, Place, Problem};
 
 /// Reads the curves of a stage.

@@ -1,4 +1,4 @@
-//! Calls into libraries that were not made for broken files.
+//! Calls into a library that was not made for broken files.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -6,11 +6,11 @@ use crate::{ParseError, Place, Problem};
 
 /// Runs `read`, and makes a panic in it an error.
 ///
-/// Both openusd 0.6 and ogawa-rs 0.4 index by numbers from the file, and have kinds of data left
-/// to do that end in `todo!`. What can be checked before is checked where they are called; this
+/// openusd 0.6 indexes by numbers from the file, and has kinds of data left to do that end in
+/// `todo!`. What can be checked before is checked where they are called; this
 /// holds what is left. Nothing that `read` touches outlives it, so that no state is seen half
 /// changed.
-pub(crate) fn no_panic<T>(
+pub(super) fn no_panic<T>(
     library: &str,
     read: impl FnOnce() -> Result<T, ParseError>,
 ) -> Result<T, ParseError> {
@@ -30,7 +30,7 @@ pub(crate) fn no_panic<T>(
 const LONGEST: usize = 200;
 
 /// The message on one line, not too long.
-pub(crate) fn one_line(message: &str) -> String {
+pub(super) fn one_line(message: &str) -> String {
     let line = message.split_whitespace().collect::<Vec<_>>().join(" ");
     match line.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{} ...", &line[..end]),
