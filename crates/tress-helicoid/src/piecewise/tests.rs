@@ -33,7 +33,7 @@ proptest! {
             prop_assert!(joint.position.distance(around[1].position) < 1e-8);
             prop_assert!(joint.tangent().distance(before.normalize()) < 1e-5);
             for (a, b) in [(0, 1), (1, 2)] {
-                let turned = around[a].axes.transpose() * around[b].axes - glam::DMat3::IDENTITY;
+                let turned = around[a].axes.transpose() * around[b].axes - DMat3::IDENTITY;
                 prop_assert!(turned.to_cols_array().iter().all(|entry| entry.abs() < 1e-5));
             }
         }
