@@ -1,0 +1,163 @@
+use std::f64::consts::TAU;
+
+use super::*;
+use tress_geometry::Frame;
+
+fn strand(elements: &[Element]) -> SuperHelix<'_> {
+    SuperHelix { root: Frame::along(DVec3::ONE, DVec3::new(1.0, 2.0, -0.5)).unwrap(), elements }
+}
+
+/// A coil in elements of a sixth of a turn or so.
+fn coil(radius: f64, pitch: f64, turns: f64) -> Vec<Element> {
+    let coil = Element::coil(radius, pitch);
+    let n = (6.0 * turns).ceil();
+    let length = turns * TAU / coil.curvature.length() / n;
+    vec![Element { length, ..coil }; n as usize]
+}
+
+/// A coil whose axis bends into an arc: curvature of the axis, seen from the winding frame.
+fn bent(radius: f64, pitch: f64, turns: f64, axis_curvature: f64) -> Vec<Element> {
+    let straight = coil(radius, pitch, turns);
+    let strand = SuperHelix { root: Frame::IDENTITY, elements: &straight };
+    let joints: Vec<Frame> = strand.joints().collect();
+    let axis = (straight[0].curvature * straight[0].curvature.x.signum()).normalize();
+    let about = axis.any_orthonormal_vector() * axis_curvature;
+    let add = |(element, joint): (&Element, &Frame)| {
+        let middle = element.frame_at(joint, 0.5 * element.length);
+        Element { curvature: element.curvature + middle.axes.transpose() * about, ..*element }
+    };
+    straight.iter().zip(&joints).map(add).collect()
+}
+
+/// Direction of the axis about an arc length: the mean of the tangent over a turn.
+fn axis(strand: &SuperHelix<'_>, s: f64, turn: f64) -> DVec3 {
+    (strand.position_at(s + 0.5 * turn) - strand.position_at(s - 0.5 * turn)).normalize()
+}
+
+#[test]
+fn a_straight_coil_keeps_all_it_should() {
+    for (radius, pitch) in [(0.5, 0.6), (0.5, -0.6), (2.0, 8.0), (0.01, 0.04)] {
+        let before = coil(radius, pitch, 40.0);
+        let before = strand(&before);
+        let length = before.length();
+        let turn = length / 40.0;
+        let place = 0.5 * length;
+        let (elements, placed) =
+            insert_at(&before, place, &InsertOptions::default()).expect("room for it");
+        let after = strand(&elements);
+        assert!((after.length() - length).abs() < 1e-12 * length);
+        // Bit for bit before the room.
+        let untouched = ((place - placed.half_width) / (length / 240.0)).floor() as usize;
+        assert!(0 < untouched);
+        assert_eq!(elements[..untouched], before.elements[..untouched]);
+        // Behind it the same bending and the other hand.
+        let mut s = 0.0;
+        for element in &elements {
+            s += element.length;
+            if place + placed.half_width < s - element.length {
+                let q = before.elements[0];
+                assert!((element.bending() / q.bending() - 1.0).abs() < 1e-9);
+                assert!((element.twist() / q.twist() + 1.0).abs() < 1e-9);
+            }
+        }
+        // The axis is the same line on both sides.
+        let (root, tip) = (2.0 * turn, length - 2.0 * turn);
+        let direction = axis(&before, root, turn);
+        let off = direction.angle_between(axis(&after, tip, turn));
+        assert!(off < 1e-6, "{radius} {pitch}: {off}");
+        let on_axis = |strand: &SuperHelix<'_>, s: f64| {
+            let n = 64;
+            let points = (0..n).map(|i| strand.position_at(s + turn * i as f64 / n as f64));
+            points.sum::<DVec3>() / n as f64
+        };
+        let across = on_axis(&after, tip - turn) - on_axis(&before, root);
+        let aside = (across - direction * across.dot(direction)).length() / radius;
+        assert!(aside < 0.15, "{radius} {pitch}: {aside} radii aside");
+    }
+}
+
+#[test]
+fn a_bent_axis_stays_bent_as_it_was() {
+    let before = bent(0.5, 0.8, 40.0, 0.02);
+    let before = strand(&before);
+    let length = before.length();
+    let turn = length / 40.0;
+    let (elements, placed) = insert_at(&before, 0.4 * length, &InsertOptions::default()).unwrap();
+    let after = strand(&elements);
+    assert!((after.length() - length).abs() < 1e-12 * length);
+    let mut s = placed.arc_length + placed.half_width + turn;
+    while s < length - turn {
+        // The axis turns by 2.6 radians in all, and by 0.07 over the turn it is measured on.
+        let off = axis(&before, s, turn).angle_between(axis(&after, s, turn));
+        assert!(off < 0.05, "{s}: {off}");
+        s += 0.3 * turn;
+    }
+    let measured = tress_analysis::smoothed(&elements);
+    let last = &measured[measured.len() - 12];
+    assert!((last.radius() - 0.5).abs() < 0.01, "{}", last.radius());
+    assert!((last.pitch() + 0.8).abs() < 0.02, "{}", last.pitch());
+}
+
+#[test]
+fn elements_of_many_turns_are_no_harder() {
+    let one = [Element { length: 150.0, ..Element::coil(0.5, 0.6) }];
+    let (elements, _) = insert_at(&strand(&one), 75.0, &InsertOptions::default()).unwrap();
+    let last = elements[elements.len() - 1];
+    assert!((last.twist() + one[0].twist()).abs() < 1e-9);
+    assert!((last.bending() - one[0].bending()).abs() < 1e-9);
+}
+
+#[test]
+fn how_the_frame_stands_about_the_tangent_does_not_matter() {
+    let plain = coil(0.5, 0.6, 40.0);
+    let turned: Vec<Element> = plain
+        .iter()
+        .map(|e| {
+            let q = e.curvature;
+            Element { curvature: DVec3::new(q.x, 0.6 * q.z, 0.8 * q.z), ..*e }
+        })
+        .collect();
+    let s = 60.0;
+    let shape = |elements: &[Element]| {
+        let strand = SuperHelix { root: Frame::IDENTITY, elements };
+        let (elements, _) = insert_at(&strand, s, &InsertOptions::default()).unwrap();
+        let tip = SuperHelix { root: Frame::IDENTITY, elements: &elements }.tip().position;
+        (tip.x, tip.length(), elements.len())
+    };
+    let (a, b) = (shape(&plain), shape(&turned));
+    assert!((a.0 - b.0).abs() < 1e-9 && (a.1 - b.1).abs() < 1e-9 && a.2 == b.2);
+}
+
+#[test]
+fn refusals_say_why() {
+    let short = coil(0.5, 0.6, 4.0);
+    let short = strand(&short);
+    let options = InsertOptions::default();
+    let Err(InsertError::NoRoom { needed, .. }) = insert_at(&short, 0.5 * short.length(), &options)
+    else {
+        panic!("four turns are too few")
+    };
+    // With as much room as it says it needs, it fits.
+    let turns = 4.0 * 2.0 * (needed + 1e-6) / short.length();
+    let enough = coil(0.5, 0.6, turns);
+    let enough = strand(&enough);
+    assert!(insert_at(&enough, 0.5 * enough.length(), &options).is_ok());
+    let off = insert_at(&short, -1.0, &options);
+    assert!(matches!(off, Err(InsertError::OffStrand { .. })));
+    let off = insert_at(&short, f64::NAN, &options);
+    assert!(matches!(off, Err(InsertError::OffStrand { .. })));
+    let flat = coil(0.5, 0.0, 40.0);
+    let flat = insert_at(&strand(&flat), 10.0, &options);
+    assert!(matches!(flat, Err(InsertError::NoCoil { .. })));
+    let nothing = insert_at(&strand(&[]), 0.0, &options);
+    assert!(matches!(nothing, Err(InsertError::NoCoil { .. })));
+    for bad in [
+        InsertOptions { poisson_ratio: 0.7, ..options },
+        InsertOptions { share: 0.0, ..options },
+        InsertOptions { share: f64::NAN, ..options },
+        InsertOptions { elements_per_turn: 1, ..options },
+    ] {
+        let error = insert_at(&short, 1.0, &bad);
+        assert!(matches!(error, Err(InsertError::Option { .. })), "{error:?}");
+    }
+}
