@@ -16,7 +16,7 @@ use glam::DVec3;
 use tress_geometry::Frame;
 use tress_geometry::polyline::{self, Defect, place};
 
-pub use frames::rotation_minimizing_frames;
+pub use frames::{rotation_minimizing_frames, rotation_minimizing_frames_from};
 
 /// The line that a strand coils about: a point for each point of the strand.
 #[derive(Clone, Debug, PartialEq)]

@@ -71,6 +71,7 @@ mod tangents;
 pub use arc::HelixArc;
 pub use centerline::{
     Centerline, centerline, centerline_of_turns, fourier_centerline, rotation_minimizing_frames,
+    rotation_minimizing_frames_from,
 };
 pub use fit::{FitError, Fitted, fit, fit_with};
 pub use floating_points::float_points;

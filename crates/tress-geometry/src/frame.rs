@@ -69,6 +69,34 @@ impl Frame {
         Self { position: self.position, axes: DMat3::from_cols(t, u, t.cross(u)) }
     }
 
+    /// This frame carried to `position` and the unit tangent `t` with no turn about the curve on the
+    /// way, by the double reflection of Wang, Juettler, Zheng and Liu, "Computation of rotation
+    /// minimizing frames", ACM TOG 27(1), 2008: in the plane between the positions, and in that
+    /// which takes the reflected tangent to `t`. The error is of fourth order in the step.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use tress_geometry::Frame;
+    ///
+    /// // A quarter of a circle in a plane: what stands across the plane goes on standing so.
+    /// let end = Frame::IDENTITY.reflected_to(DVec3::new(1.0, 1.0, 0.0), DVec3::Y);
+    /// assert!(end.axes.z_axis.distance(DVec3::Z) < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn reflected_to(&self, position: DVec3, t: DVec3) -> Self {
+        let mirrored = |a: DVec3, n: DVec3| {
+            let square = n.length_squared();
+            if square > 0.0 { a - n * (2.0 * n.dot(a) / square) } else { a }
+        };
+        let across = position - self.position;
+        let tangent = mirrored(self.tangent(), across);
+        let u = mirrored(mirrored(self.axes.y_axis, across), t - tangent);
+        match (u - t * t.dot(u)).try_normalize() {
+            Some(u) => Self { position, axes: DMat3::from_cols(t, u, t.cross(u)) },
+            None => Self { position, axes: self.turned_to(t).axes },
+        }
+    }
+
     /// Greatest entry of `F^T F - I`: 0 for a perfect frame.
     #[must_use]
     pub fn orthonormality_error(&self) -> f64 {

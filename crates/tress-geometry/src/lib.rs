@@ -17,6 +17,7 @@
 //! | [`Strands`] | many strands in one flat array |
 //! | [`Groom`] | polylines with attributes, unit and up axis: what files hold |
 //! | [`HelixGroom`] | the same groom as super-helices: what edits act on |
+//! | [`Mesh`] | a triangle mesh: the scalp |
 //! | [`polyline`], [`curves`] | lengths and defects of polylines; Catmull-Rom and other cubic curves |
 //!
 //! # Conventions
@@ -45,6 +46,7 @@ mod element;
 mod frame;
 mod groom;
 mod helix_groom;
+mod mesh;
 pub mod polyline;
 mod rodrigues;
 mod strands;
@@ -56,4 +58,5 @@ pub use element::Element;
 pub use frame::Frame;
 pub use groom::{Groom, GroomError, JoinError, UpAxis};
 pub use helix_groom::{HelixGroom, Kept};
+pub use mesh::{Mesh, MeshError};
 pub use strands::{OffsetsError, Strands};

@@ -55,6 +55,7 @@ mod format;
 mod frames;
 pub mod hair;
 mod loss;
+pub mod mesh;
 mod named;
 pub mod native;
 pub mod npy;

@@ -68,6 +68,34 @@ pub fn read(bytes: &[u8]) -> Result<Groom, ParseError> {
     Ok(groom.in_space(unit, up))
 }
 
+/// All arrays of floating-point numbers: for each its name, shape and numbers in C order.
+///
+/// They are ordered by the number that ends their name, as in `arr_2` and `arr_10`, which is the
+/// order in which numpy stored them, and by name.
+///
+/// # Errors
+///
+/// If the bytes are no zip archive, or if an array is broken.
+pub fn float_arrays(bytes: &[u8]) -> Result<Vec<(String, Vec<usize>, Vec<f64>)>, ParseError> {
+    let mut archive = Archive::open(bytes)?;
+    let names = archive.0.file_names().filter_map(|name| name.strip_suffix(".npy"));
+    let mut names: Vec<String> = names.map(str::to_owned).collect();
+    let number = |name: &str| -> Option<u64> {
+        let digits = name.len() - name.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+        name[name.len() - digits..].parse().ok()
+    };
+    names.sort_by(|a, b| (number(a), a).cmp(&(number(b), b)));
+    let mut arrays = Vec::new();
+    for name in names {
+        let Some(bytes) = archive.bytes(&name)? else { continue };
+        let array = Array::read(&bytes).map_err(|error| in_part(&name, error))?;
+        if let Numbers::Float(values) = array.numbers() {
+            arrays.push((name, array.shape, values));
+        }
+    }
+    Ok(arrays)
+}
+
 /// The strands, and how many points each has where the file says so once for all.
 fn strands(archive: &mut Archive<'_>) -> Result<(Strands<DVec3>, Option<usize>), ParseError> {
     let Some(bytes) = archive.bytes(POSITIONS)? else {

@@ -14,6 +14,7 @@
 //! little-endian, with `f32` coordinates.
 
 mod header;
+pub(crate) mod mesh;
 mod rows;
 mod write;
 

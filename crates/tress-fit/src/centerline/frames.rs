@@ -1,11 +1,8 @@
 //! Frames along a polyline that do not turn about it.
 //!
-//! The double reflection method of Wang, Juettler, Zheng and Liu, "Computation of rotation
-//! minimizing frames", ACM TOG 27(1), 2008: the frame at a point is reflected in the plane between
-//! it and the next, and again so that its tangent becomes the next point's. The error of the
-//! frame's turn about the line is of fourth order in the step.
+//! Frames are carried from point to point by double reflection ([`Frame::reflected_to`]).
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use tress_geometry::Frame;
 
 /// A frame at each point, tangents along the polyline, moved on with no turn about it.
@@ -25,14 +22,33 @@ use tress_geometry::Frame;
 /// ```
 #[must_use]
 pub fn rotation_minimizing_frames(points: &[DVec3]) -> Vec<Frame> {
-    let mut frames: Vec<Frame> = Vec::with_capacity(points.len());
     let first = (0..points.len()).find_map(|i| tangent(points, i)).unwrap_or(DVec3::X);
+    let first = Frame::along(DVec3::ZERO, first).unwrap_or(Frame::IDENTITY);
+    rotation_minimizing_frames_from(points, &first)
+}
+
+/// [`rotation_minimizing_frames`] of which the first is `first`, turned to the polyline's own first
+/// tangent by the least rotation: frames that a polyline keeps while it moves.
+///
+/// ```
+/// use glam::DVec3;
+/// use tress_fit::rotation_minimizing_frames_from;
+/// use tress_geometry::Frame;
+///
+/// let frames = rotation_minimizing_frames_from(&[DVec3::ZERO, DVec3::Y], &Frame::IDENTITY);
+/// assert_eq!(frames[1].tangent(), DVec3::Y);
+/// assert_eq!(frames[1].axes.z_axis, DVec3::Z);
+/// ```
+#[must_use]
+pub fn rotation_minimizing_frames_from(points: &[DVec3], first: &Frame) -> Vec<Frame> {
+    let mut frames: Vec<Frame> = Vec::with_capacity(points.len());
+    let start = (0..points.len()).find_map(|i| tangent(points, i)).unwrap_or(first.tangent());
     for (i, &position) in points.iter().enumerate() {
         let next = match frames.last() {
-            None => Frame::along(position, first).unwrap_or(Frame { position, ..Frame::IDENTITY }),
+            None => Frame { position, ..first.turned_to(start) },
             Some(before) => {
                 let t = tangent(points, i).unwrap_or(before.tangent());
-                reflected(before, position, t)
+                before.reflected_to(position, t)
             }
         };
         frames.push(next);
@@ -51,20 +67,4 @@ fn tangent(points: &[DVec3], i: usize) -> Option<DVec3> {
         i => points[i + 1] - points[i - 1],
     };
     slope.try_normalize()
-}
-
-/// The frame carried to `position` and unit tangent `t` by two reflections.
-fn reflected(before: &Frame, position: DVec3, t: DVec3) -> Frame {
-    let mirror = |a: DVec3, n: DVec3| {
-        let square = n.length_squared();
-        if square > 0.0 { a - n * (2.0 * n.dot(a) / square) } else { a }
-    };
-    let across = position - before.position;
-    let (u, along) = (mirror(before.axes.y_axis, across), mirror(before.tangent(), across));
-    let u = mirror(u, t - along);
-    let Some(u) = (u - t * t.dot(u)).try_normalize() else {
-        let turned = before.turned_to(t);
-        return Frame { position, axes: turned.axes };
-    };
-    Frame { position, axes: DMat3::from_cols(t, u, t.cross(u)) }
 }

@@ -9,7 +9,16 @@ use crate::{ParseError, Place, Problem};
 pub(super) fn for_each_row(
     header: &Header,
     file: &[u8],
-    each: impl FnMut(usize, &[f64]),
+    mut each: impl FnMut(usize, &[f64]),
+) -> Result<(), ParseError> {
+    for_each_row_and_list(header, file, |element, row, _| each(element, row))
+}
+
+/// The same with the items of the row's lists as well, list after list.
+pub(super) fn for_each_row_and_list(
+    header: &Header,
+    file: &[u8],
+    each: impl FnMut(usize, &[f64], &[f64]),
 ) -> Result<(), ParseError> {
     check_room(header, file.len() - header.bytes)?;
     match header.encoding {
@@ -41,19 +50,19 @@ fn check_room(header: &Header, left: usize) -> Result<(), ParseError> {
 fn ascii(
     header: &Header,
     body: &[u8],
-    mut each: impl FnMut(usize, &[f64]),
+    mut each: impl FnMut(usize, &[f64], &[f64]),
 ) -> Result<(), ParseError> {
     let mut lines = Lines::after(body, header.lines);
-    let mut row = Vec::new();
+    let (mut row, mut items) = (Vec::new(), Vec::new());
     for (i, element) in header.elements.iter().enumerate() {
         for _ in 0..element.rows {
             let Some(line) = lines.next_written()? else {
                 let expected = format!("a row of element {}", element.name);
                 return Err(Problem::unexpected(expected, "the end of the file").at(lines.place()));
             };
-            let read = ascii_row(element, line, &mut row);
+            let read = ascii_row(element, line, &mut row, &mut items);
             read.map_err(|problem| problem.at(lines.place()))?;
-            each(i, &row);
+            each(i, &row, &items);
         }
     }
     if lines.next_written()?.is_some() {
@@ -62,7 +71,12 @@ fn ascii(
     Ok(())
 }
 
-fn ascii_row(element: &Element, line: &[u8], row: &mut Vec<f64>) -> Result<(), Problem> {
+fn ascii_row(
+    element: &Element,
+    line: &[u8],
+    row: &mut Vec<f64>,
+    items: &mut Vec<f64>,
+) -> Result<(), Problem> {
     let mut words = words(line);
     let mut next = || match words.next() {
         Some(word) => number(word),
@@ -72,6 +86,7 @@ fn ascii_row(element: &Element, line: &[u8], row: &mut Vec<f64>) -> Result<(), P
         }
     };
     row.clear();
+    items.clear();
     for property in &element.properties {
         let value = next()?;
         if property.list.is_none() {
@@ -79,7 +94,7 @@ fn ascii_row(element: &Element, line: &[u8], row: &mut Vec<f64>) -> Result<(), P
             continue;
         }
         for _ in 0..list_length(value)? {
-            next()?;
+            items.push(next()?);
         }
         row.push(0.0);
     }
@@ -103,18 +118,19 @@ fn list_length(value: f64) -> Result<u64, Problem> {
 fn binary(
     header: &Header,
     file: &[u8],
-    mut each: impl FnMut(usize, &[f64]),
+    mut each: impl FnMut(usize, &[f64], &[f64]),
 ) -> Result<(), ParseError> {
     let mut bytes = Bytes::new(file);
     bytes.items::<1>(header.bytes)?;
-    let mut row = Vec::new();
+    let (mut row, mut items) = (Vec::new(), Vec::new());
     for (i, element) in header.elements.iter().enumerate() {
         for _ in 0..element.rows {
             row.clear();
+            items.clear();
             for property in &element.properties {
-                row.push(binary_value(property, header.encoding, &mut bytes)?);
+                row.push(binary_value(property, header.encoding, &mut bytes, &mut items)?);
             }
-            each(i, &row);
+            each(i, &row, &items);
         }
     }
     bytes.finish()
@@ -124,13 +140,17 @@ fn binary_value(
     property: &Property,
     encoding: Encoding,
     bytes: &mut Bytes<'_>,
+    items: &mut Vec<f64>,
 ) -> Result<f64, ParseError> {
     let Some(count) = property.list else { return scalar(property.kind, encoding, bytes) };
     let at = bytes.position();
     let length = list_length(scalar(count, encoding, bytes)?);
     let length = length.map_err(|problem| problem.at_byte(at))?;
-    let size = usize::try_from(length).unwrap_or(usize::MAX).saturating_mul(property.kind.size());
-    bytes.items::<1>(size)?;
+    let length = usize::try_from(length).unwrap_or(usize::MAX);
+    bytes.expect(length, property.kind.size())?;
+    for _ in 0..length {
+        items.push(scalar(property.kind, encoding, bytes)?);
+    }
     Ok(0.0)
 }
 
