@@ -2,11 +2,10 @@
 
 use std::str::FromStr;
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use tress_geometry::{Element, HelixGroom};
+use tress_geometry::HelixGroom;
 
-use crate::{Hand, measure, smoothed};
+use crate::{Along, Analysis, Hand, StrandMeasures};
 
 /// A quantity of strands or of places along them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -24,12 +23,27 @@ pub enum Quantity {
     Curvature,
     /// Twist (torsion) along a strand, in one over length, positive to the right.
     Twist,
+    /// Turns a unit of centerline along a strand.
+    Frequency,
+    /// Advance along the centerline in one turn, negative to the left.
+    Pitch,
+    /// Beta [CSE 14] along a strand: 1 right-handed coil, -1 left-handed coil, 0 planar wave.
+    Beta,
 }
 
 impl Quantity {
     /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Radius, Self::Turns, Self::Length, Self::Handedness, Self::Curvature, Self::Twist];
+    pub const ALL: [Self; 9] = [
+        Self::Radius,
+        Self::Turns,
+        Self::Length,
+        Self::Handedness,
+        Self::Curvature,
+        Self::Twist,
+        Self::Frequency,
+        Self::Pitch,
+        Self::Beta,
+    ];
 
     /// The name by which it is asked for.
     #[must_use]
@@ -41,6 +55,9 @@ impl Quantity {
             Self::Handedness => "handedness",
             Self::Curvature => "curvature",
             Self::Twist => "twist",
+            Self::Frequency => "frequency",
+            Self::Pitch => "pitch",
+            Self::Beta => "beta",
         }
     }
 
@@ -54,6 +71,9 @@ impl Quantity {
             Self::Handedness => "hand (-1 left, 1 right)",
             Self::Curvature => "curvature",
             Self::Twist => "twist (negative left, positive right)",
+            Self::Frequency => "turns a length of centerline",
+            Self::Pitch => "pitch (negative left, positive right)",
+            Self::Beta => "beta (-1 left, 0 planar, 1 right)",
         }
     }
 
@@ -61,23 +81,24 @@ impl Quantity {
     #[must_use]
     pub fn length_power(self) -> i32 {
         match self {
-            Self::Radius | Self::Length => 1,
-            Self::Turns | Self::Handedness => 0,
-            Self::Curvature | Self::Twist => -1,
+            Self::Radius | Self::Length | Self::Pitch => 1,
+            Self::Turns | Self::Handedness | Self::Beta => 0,
+            Self::Curvature | Self::Twist | Self::Frequency => -1,
         }
     }
 
     /// Whether values lie on both sides of 0, which is then the middle of a scale.
     #[must_use]
     pub fn is_signed(self) -> bool {
-        matches!(self, Self::Handedness | Self::Twist)
+        matches!(self, Self::Handedness | Self::Twist | Self::Pitch | Self::Beta)
     }
 }
 
 /// Why a word is no quantity.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "no quantity is called {0:?}; there is: radius, turns, length, handedness, curvature, twist"
+    "no quantity is called {0:?}; there is: radius, turns, length, handedness, curvature, twist, \
+     frequency, pitch, beta"
 )]
 pub struct UnknownQuantity(pub String);
 
@@ -94,41 +115,46 @@ impl FromStr for Quantity {
 pub enum QuantityValues {
     /// One a strand.
     Strands(Vec<f64>),
-    /// One a joint, strand after strand (see [`HelixGroom::joint_range`]).
+    /// One a point or joint, strand after strand (see [`HelixGroom::joint_range`]).
     Joints(Vec<f64>),
 }
 
-/// The values of a quantity on a groom; NaN for strands that have none, such as the radius of a
-/// straight strand and everything of strands kept as polylines.
-///
-/// ```
-/// use tress_analysis::{Quantity, QuantityValues, quantity};
-/// use tress_geometry::{Element, Frame, HelixGroom, Strands};
-///
-/// let element = |k2| Element { curvature: [0.0, 0.0, k2].into(), length: 1.0 };
-/// let elements = Strands::from_counts([2], vec![element(1.0), element(3.0)])?;
-/// let groom = HelixGroom::new(vec![Frame::IDENTITY], elements)?;
-/// let values = quantity(&groom, Quantity::Curvature);
-/// // Curvatures are averaged over a turn; this strand turns less than once.
-/// assert_eq!(values, QuantityValues::Joints(vec![2.0, 2.0, 2.0]));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
+/// The values of a quantity on a groom of super-helices, see [`Analysis::values`].
 #[must_use]
 pub fn quantity(groom: &HelixGroom, quantity: Quantity) -> QuantityValues {
-    match quantity {
-        Quantity::Curvature => QuantityValues::Joints(joints(groom, Element::bending)),
-        Quantity::Twist => QuantityValues::Joints(joints(groom, Element::twist)),
-        _ => QuantityValues::Strands(strands(groom, quantity)),
-    }
+    Analysis::of_helices(groom).values(quantity)
 }
 
-fn strands(groom: &HelixGroom, quantity: Quantity) -> Vec<f64> {
-    let value = |i: usize| {
-        if groom.kept_polyline(i).is_some() {
-            return f64::NAN;
+impl Analysis {
+    /// The values of a quantity, by the strand or by the place (a point of a polyline, a joint of a
+    /// super-helix). NaN for strands that are no curves, and
+    /// for the radius of those that do not coil.
+    ///
+    /// ```
+    /// use tress_analysis::{Analysis, Quantity, QuantityValues};
+    /// use tress_geometry::{Element, Frame, HelixGroom, Strands};
+    ///
+    /// let coil = Element { length: 9.0, ..Element::coil(0.5, 1.0) };
+    /// let elements = Strands::from_counts([2], vec![coil; 2])?;
+    /// let groom = HelixGroom::new(vec![Frame::IDENTITY], elements)?;
+    /// let analysis = Analysis::of_helices(&groom);
+    /// let QuantityValues::Joints(beta) = analysis.values(Quantity::Beta) else { panic!() };
+    /// assert_eq!(beta.len(), 3);
+    /// assert!((beta[1] - 1.0).abs() < 1e-2);
+    /// let radius = QuantityValues::Strands(vec![analysis.strands[0].unwrap().coil_radius.unwrap()]);
+    /// assert_eq!(analysis.values(Quantity::Radius), radius);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn values(&self, quantity: Quantity) -> QuantityValues {
+        match self.along.values(quantity) {
+            Some(values) => QuantityValues::Joints(values.to_vec()),
+            None => QuantityValues::Strands(self.by_strand(quantity)),
         }
-        let measures = measure(&groom.strand(i));
-        match quantity {
+    }
+
+    fn by_strand(&self, quantity: Quantity) -> Vec<f64> {
+        let value = |measures: &StrandMeasures| match quantity {
             Quantity::Radius => measures.coil_radius.unwrap_or(f64::NAN),
             Quantity::Turns => measures.turns,
             Quantity::Length => measures.length,
@@ -137,30 +163,29 @@ fn strands(groom: &HelixGroom, quantity: Quantity) -> Vec<f64> {
                 Hand::Left => -1.0,
                 Hand::Neither => 0.0,
             },
-        }
-    };
-    (0..groom.len()).into_par_iter().map(value).collect()
+        };
+        self.strands.iter().map(|m| m.as_ref().map_or(f64::NAN, value)).collect()
+    }
 }
 
-/// At each joint the mean of the two elements that meet there, their curvatures averaged over a
-/// turn, so that what is shown is the coil and not its sampling.
-fn joints(groom: &HelixGroom, value: impl Fn(&Element) -> f64) -> Vec<f64> {
-    let mut values = Vec::with_capacity(groom.elements().points().len() + groom.len());
-    for elements in groom.elements().iter().map(smoothed) {
-        let (Some(first), Some(last)) = (elements.first(), elements.last()) else {
-            values.push(f64::NAN);
-            continue;
-        };
-        values.push(value(first));
-        values.extend(elements.windows(2).map(|pair| 0.5 * (value(&pair[0]) + value(&pair[1]))));
-        values.push(value(last));
+impl Along {
+    /// The column of a quantity; `None` for one that strands have as a whole.
+    #[must_use]
+    pub fn values(&self, quantity: Quantity) -> Option<&[f64]> {
+        match quantity {
+            Quantity::Curvature => Some(&self.curvature),
+            Quantity::Twist => Some(&self.twist),
+            Quantity::Frequency => Some(&self.frequency),
+            Quantity::Pitch => Some(&self.pitch),
+            Quantity::Beta => Some(&self.beta),
+            Quantity::Radius | Quantity::Turns | Quantity::Length | Quantity::Handedness => None,
+        }
     }
-    values
 }
 
 #[cfg(test)]
 mod tests {
-    use tress_geometry::{Frame, Strands};
+    use tress_geometry::{Element, Frame, Strands};
 
     use super::*;
 
@@ -179,10 +204,10 @@ mod tests {
                 }
             }
         }
-        assert_eq!(
-            quantity(&groom, Quantity::Handedness),
-            QuantityValues::Strands(vec![-1.0, 0.0])
-        );
+        let QuantityValues::Strands(hands) = quantity(&groom, Quantity::Handedness) else {
+            panic!("hands are the strands'");
+        };
+        assert!(hands[0] < 0.0 && hands[1].is_nan());
         assert!("colour".parse::<Quantity>().is_err());
     }
 }
