@@ -196,7 +196,7 @@ fn insert_shape(
     if !(0.0..=length).contains(&arc_length) {
         return Err(InsertError::OffStrand { arc_length, length });
     }
-    let straightened = tress_analysis::smoothed(strand.elements);
+    let straightened = local::straighten(strand.elements);
     let coil = local::coil(&straightened, arc_length);
     let v = if coil == DVec3::ZERO { 0.0 } else { coil.x / coil.length() };
     let shape = shapes.get(v).ok_or(InsertError::NoCoil { arc_length, v })?;
