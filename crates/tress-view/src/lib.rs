@@ -13,6 +13,8 @@
 //! | [`Scale`], [`ColorMap`] | numbers to colours, and the ticks of the legend |
 //! | [`Camera`], [`render_seen_by`] | where a point is seen; pictures by a camera of one's own |
 //! | [`sheet`], [`png`] | captioned pictures on one sheet; the bytes of the file |
+//! | [`plot`] | lines by the thousand, histograms, spectra: SVG and PNG by the same code |
+//! | [`Page`] | pictures, plots and tables as one HTML file that needs no other |
 //!
 //! ```
 //! use glam::DVec3;
@@ -68,6 +70,8 @@ mod draw;
 mod flatten;
 mod legend;
 mod num;
+mod page;
+pub mod plot;
 mod png;
 mod raster;
 mod render;
@@ -83,6 +87,7 @@ pub use bounds::Bounds;
 pub use camera::{Camera, Size, View};
 pub use color::{HairColor, Rgb};
 pub use image::RgbImage;
+pub use page::Page;
 pub use png::png;
 pub use render::{Coloring, RenderError, RenderOptions, render, render_seen_by, render_within};
 pub use scale::{ColorMap, Scale, Tick};
