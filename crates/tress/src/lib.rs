@@ -10,6 +10,10 @@
 //! | [`analysis`] | coil radius, turns, handedness, defects, clusters |
 //! | [`edit`] | ruffle, blend and other edits of curvatures |
 //! | [`optimize`] | sculpting: strands moved to anchors |
+//! | [`switchback`] | coils that change hands: their equilibrium, and into strands |
+//! | [`grow`] | guides to a head of hair: phase locking, period skipping, roots |
+//! | [`helicoid`] | generalized helicoids: hairs that know their neighbours |
+//! | [`procedural`] | guides and operators to strands, and back |
 //! | [`io`] | files: .obj .hair .data .bin .ply .tfx .npy .npz .usda .usdc .abc .tress |
 //! | [`view`] | pictures |
 //!
@@ -59,6 +63,10 @@ pub use tress_analysis as analysis;
 pub use tress_edit as edit;
 pub use tress_fit as fit;
 pub use tress_geometry as geometry;
+pub use tress_grow as grow;
+pub use tress_helicoid as helicoid;
 pub use tress_io as io;
 pub use tress_optimize as optimize;
+pub use tress_procedural as procedural;
+pub use tress_switchback as switchback;
 pub use tress_view as view;
