@@ -5,13 +5,16 @@ mod blend;
 mod convert;
 mod demo;
 mod fit;
+mod grow;
 mod info;
 mod merge;
 mod recoil;
 mod render;
 mod ruffle;
 mod sample;
+mod scatter;
 mod sculpt;
+mod spectra;
 
 use clap::Subcommand;
 
@@ -32,6 +35,9 @@ pub(crate) enum Command {
     Recoil(recoil::RecoilArgs),
     Armature(armature::ArmatureArgs),
     Sculpt(sculpt::SculptArgs),
+    Grow(grow::GrowArgs),
+    Spectra(spectra::SpectraArgs),
+    Scatter(scatter::ScatterArgs),
     Render(render::RenderArgs),
     Merge(merge::MergeArgs),
 }
@@ -43,6 +49,9 @@ pub(crate) fn run(command: &Command, everywhere: &Everywhere) -> Result<Report, 
         Command::Recoil(args) => recoil::run(args, everywhere),
         Command::Armature(args) => armature::run(args, everywhere),
         Command::Sculpt(args) => sculpt::run(args, everywhere),
+        Command::Grow(args) => grow::run(args, everywhere),
+        Command::Spectra(args) => spectra::run(args, everywhere),
+        Command::Scatter(args) => scatter::run(args, everywhere),
         Command::Render(args) => render::run(args, everywhere),
         Command::Info(args) => info::run(args, everywhere),
         Command::Convert(args) => convert::run(args, everywhere),

@@ -95,7 +95,7 @@ pub fn coily_patch(options: &PatchOptions, seed: u64) -> Groom {
 fn spread_on_cap(options: &PatchOptions) -> impl Iterator<Item = DVec3> {
     let (n, least) = (options.wisps as f64, options.patch_angle.cos());
     let golden = TAU * (1.0 - 1.0 / ((1.0 + 5_f64.sqrt()) / 2.0));
-    let tilt = glam::DMat3::from_rotation_x(-0.5);
+    let tilt = crate::scalp::tilt();
     (0..options.wisps).map(move |i| {
         let z = 1.0 - (i as f64 + 0.5) / n * (1.0 - least);
         let (sine, cosine) = (golden * i as f64).sin_cos();

@@ -184,7 +184,8 @@ impl Subject {
     }
 }
 
-fn polylines(model: Model, progress: &Progress) -> Result<Groom, Failure> {
+/// The polylines of a model; super-helices are sampled.
+pub(crate) fn polylines(model: Model, progress: &Progress) -> Result<Groom, Failure> {
     match model {
         Model::Polylines(groom) => Ok(groom),
         Model::Helices(helices) => {
