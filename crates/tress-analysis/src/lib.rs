@@ -32,6 +32,7 @@ mod strand;
 mod summary;
 mod switchback;
 mod winding;
+mod wisps;
 
 pub use along::{Along, FLATTEST};
 pub use analysis::Analysis;
@@ -49,3 +50,4 @@ pub use strand::{Hand, StrandMeasures, measure};
 pub use summary::{GroomSummary, summarize};
 pub use switchback::{Switchback, switchbacks};
 pub use winding::Winding;
+pub use wisps::Wisps;
