@@ -9,6 +9,7 @@ mod exact;
 mod insert;
 mod material;
 mod profile;
+mod ritz;
 mod rod;
 mod shoot;
 mod tail;
@@ -21,3 +22,4 @@ pub use insert::{
 };
 pub use material::Material;
 pub use profile::{Profile, arcs, coil_frame, material_curvature};
+pub use ritz::{Ritz, RitzOptions, greatest_distance};

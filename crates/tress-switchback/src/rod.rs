@@ -21,6 +21,7 @@ use crate::Material;
 pub(crate) type State = [f64; 6];
 
 /// `y'` by arc length.
+#[cfg(test)]
 pub(crate) fn derivative(material: &Material, y: &State) -> State {
     let [k1, k2, k3, f1, f2, f3] = *y;
     let gamma = material.torsional();
@@ -35,7 +36,7 @@ pub(crate) fn derivative(material: &Material, y: &State) -> State {
     ]
 }
 
-/// The derivative of [`derivative`] in a direction: `(dy'/dy) w`.
+/// How `y'` changes with `y` in a direction: `(dy'/dy) w`.
 pub(crate) fn linearized(material: &Material, y: &State, w: &State) -> State {
     let [k1, k2, k3, f1, f2, f3] = *y;
     let [a1, a2, a3, b1, b2, b3] = *w;
@@ -51,6 +52,7 @@ pub(crate) fn linearized(material: &Material, y: &State, w: &State) -> State {
     ]
 }
 
+#[cfg(test)]
 /// `|f|`, `m . f` and the energy: the same all along a rod in equilibrium.
 
 pub(crate) fn invariants(material: &Material, y: &State) -> [f64; 3] {
