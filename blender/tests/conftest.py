@@ -2,7 +2,7 @@
 
 With TRESS_EXTENSION naming the archive that `cargo xtask extension` makes, the archive is installed
 into a user folder of its own and the add-on enabled as Blender does it, wheel and all; otherwise
-the modules beside this folder are registered, and `tress` is the installed package.
+the sources in `addon` are registered, and `tress` is the installed package.
 """
 
 import importlib.util
@@ -50,8 +50,8 @@ def installed():
 
 
 def from_sources():
-    """The add-on from the folder above."""
-    source = pathlib.Path(__file__).parent.parent / "__init__.py"
+    """The add-on from its sources."""
+    source = pathlib.Path(__file__).parents[1] / "addon" / "__init__.py"
     spec = importlib.util.spec_from_file_location(
         "tress_blender", source, submodule_search_locations=[str(source.parent)]
     )

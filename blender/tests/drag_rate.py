@@ -33,7 +33,7 @@ def drag(empties, label):
     for frame in range(FRAMES):
         angle = 4 * np.pi * frame / FRAMES
         start, busy = time.perf_counter(), time.process_time()
-        for empty, place in zip(empties, places):
+        for empty, place in zip(empties, places, strict=True):
             empty.location = place
             empty.location.x += 0.15 * np.sin(angle)
             empty.location.y += 0.15 * (1 - np.cos(angle))

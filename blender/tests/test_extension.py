@@ -118,7 +118,7 @@ def test_blend_between_two_objects_and_with_the_original(scene, addon):
         bpy.ops.tress.blend()
 
 
-@pytest.mark.parametrize("quantity", ["radius", "turns", "length", "curvature", "twist"])
+@pytest.mark.parametrize("quantity", ["radius", "frequency", "beta", "turns", "length", "twist"])
 def test_colors_are_written_as_attributes(scene, quantity):
     obj = make_hair()
     assert bpy.ops.tress.color(quantity=quantity) == {"FINISHED"}
@@ -127,11 +127,66 @@ def test_colors_are_written_as_attributes(scene, quantity):
     color = obj.data.attributes["tress_color"]
     assert (color.data_type, color.domain) == ("FLOAT_COLOR", "POINT")
     assert obj.data.materials[0].name.startswith("Tress Colors")
-    expected = {"radius": 0.05, "turns": 10.0, "twist": None}.get(quantity)
+    expected = {"radius": 0.05, "frequency": 10.0, "turns": 10.0}.get(quantity)
     if expected:
         assert np.median(values) == pytest.approx(expected, rel=0.05)
-    if quantity == "twist":
+    if quantity in ("beta", "twist"):
         assert values[40] > 0 > values[POINTS + 40]
+
+
+def test_the_hair_gets_its_own_material_back(scene):
+    obj = make_hair(count=4)
+    own = bpy.data.materials.new("Own")
+    obj.data.materials.append(own)
+    bpy.ops.tress.color()
+    assert obj.data.materials[0] != own
+    bpy.ops.tress.color(quantity="beta")
+    bpy.ops.tress.recoil(radius=2.0)
+    bpy.ops.tress.restore()
+    assert obj.data.materials[0] == own
+
+
+def test_switchbacks_change_the_hand_of_wisps(scene):
+    obj = make_hair()
+    before = positions(obj)
+    assert bpy.ops.tress.switchback(count=1, clusters=4) == {"FINISHED"}
+    bpy.ops.tress.color(quantity="handedness", material=False)
+    bpy.ops.tress.color(quantity="beta", material=False)
+    beta = numbers(obj, "tress_beta").reshape(COUNT, POINTS)
+    assert (beta[:, 15] * beta[:, 65] < 0).all()
+    root = before.reshape(COUNT, POINTS, 3)[:, 0]
+    assert np.abs(positions(obj).reshape(COUNT, POINTS, 3)[:, 0] - root).max() < 1e-6
+    assert bpy.ops.tress.restore() == {"FINISHED"}
+    assert bpy.ops.tress.switchback(count=2, scatter=True, seed=5) == {"FINISHED"}
+
+
+def test_hair_grows_from_guides_on_a_mesh(scene):
+    guides = make_hair("guides", count=9)
+    guides.location.z = 0.5
+    bpy.ops.mesh.primitive_plane_add(size=2.0, location=(0.2, 0.2, 0.5))
+    plane = bpy.context.object
+    activate(guides, plane)
+    assert bpy.ops.tress.grow(count=200, seed=2) == {"FINISHED"}
+    grown = bpy.context.object
+    assert grown.name.startswith("guides Grown") and len(grown.data.curves) == 200
+    offsets = np.empty(201, np.int32)
+    grown.data.curve_offset_data.foreach_get("value", offsets)
+    roots = positions(grown)[offsets[:-1]]
+    assert np.abs(roots[:, 2]).max() < 1e-6, "roots are on the plane, in the space of the guides"
+    assert np.isfinite(positions(grown)).all()
+    activate(guides, plane)
+    plane.modifiers.new("finer", "SUBSURF").subdivision_type = "SIMPLE"
+    plane.modifiers["finer"].levels = 6
+    bpy.ops.tress.grow(count=50, reach=0.15, preset=tress.grow_presets()[0])
+    near = bpy.context.object
+    offsets = np.empty(51, np.int32)
+    near.data.curve_offset_data.foreach_get("value", offsets)
+    own = positions(guides).reshape(9, POINTS, 3)[:, 0]
+    apart = np.linalg.norm(positions(near)[offsets[:-1]][:, None] - own[None], axis=2)
+    assert apart.min(axis=1).max() < 0.25
+    activate(guides)
+    with pytest.raises(RuntimeError, match="select a mesh"):
+        bpy.ops.tress.grow()
 
 
 def test_a_dragged_empty_moves_its_wisp_and_keeps_lengths(scene, addon):
@@ -183,8 +238,10 @@ def test_turning_and_scaling_an_empty(scene, addon):
     from mathutils import Matrix
 
     empty.matrix_basis = (
-        Matrix.Translation(center) @ Matrix.Rotation(np.pi / 2, 4, "Z")
-        @ Matrix.Translation(-center.astype(float)) @ turn
+        Matrix.Translation(center)
+        @ Matrix.Rotation(np.pi / 2, 4, "Z")
+        @ Matrix.Translation(-center.astype(float))
+        @ turn
     )
     bpy.context.view_layer.update()
     after = positions(obj).reshape(4, POINTS, 3)[:, -1]
@@ -242,7 +299,9 @@ def test_files_go_out_and_come_in(scene, tmp_path):
 def test_strands_that_are_no_curves_stay(scene):
     curves = bpy.data.hair_curves.new("odd")
     curves.add_curves([1, 4, 2, 20])
-    points = np.concatenate([np.zeros((1, 3)), np.full((4, 3), np.nan), np.eye(3)[:2], coil(1, points=20)])
+    points = np.concatenate(
+        [np.zeros((1, 3)), np.full((4, 3), np.nan), np.eye(3)[:2], coil(1, points=20)]
+    )
     curves.position_data.foreach_set("vector", points.astype(np.float32).ravel())
     obj = bpy.data.objects.new("odd", curves)
     bpy.context.collection.objects.link(obj)

@@ -18,7 +18,7 @@ pub(crate) fn run() -> Result<(), String> {
     }
     fs::create_dir_all(&wheels).map_err(|error| broken(&wheels, &error))?;
     let wheel = build_wheel(&wheels)?;
-    copy_modules(&root().join("blender"), &stage)?;
+    copy_modules(&root().join("blender/addon"), &stage)?;
     copy(&root().join("LICENSE"), &stage.join("LICENSE"))?;
     let (platform, tag) = platform(&wheel)?;
     let version = write_manifest(&stage, &wheel, platform)?;
@@ -76,7 +76,7 @@ fn platform(wheel: &str) -> Result<(&'static str, &'static str), String> {
 
 /// The manifest, with the wheel and its platform; gives the extension's version.
 fn write_manifest(stage: &Path, wheel: &str, platform: &str) -> Result<String, String> {
-    let source = root().join("blender/blender_manifest.toml");
+    let source = root().join("blender/addon/blender_manifest.toml");
     let text = fs::read_to_string(&source).map_err(|error| broken(&source, &error))?;
     let version = text.lines().find_map(|line| line.strip_prefix("version = "));
     let version = version.ok_or("blender_manifest.toml names no version")?.trim_matches('"');

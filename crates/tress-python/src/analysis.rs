@@ -6,7 +6,7 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Serialize;
-use tress::analysis::{Hand, Quantity, QuantityValues, StrandMeasures};
+use tress::analysis::{Analysis, Hand, Quantity, QuantityValues, StrandMeasures, Switchback};
 
 use crate::error::refused;
 use crate::groom::Groom;
@@ -28,8 +28,8 @@ pub(crate) fn summarize<'py>(
 ///
 /// Args:
 ///     helices: The groom.
-///     name: Of strands "radius", "turns", "length" or "handedness" (1 right, -1 left, 0 neither);
-///         of joints "curvature" or "twist".
+///     name: Of strands "turns", "length" or "handedness" (1 right, -1 left, 0 neither); of joints
+///         "radius", "curvature", "twist", "frequency", "pitch" or "beta".
 ///
 /// Returns:
 ///     One number a strand or one a joint.
@@ -47,32 +47,99 @@ pub(crate) fn quantity<'py>(
     Ok(values.into_pyarray(py))
 }
 
-/// What is measured on each strand, as a dictionary of arrays with one row a strand: "length",
-/// "reach", "turns", "coil_radius" (NaN where there is no coil), "hand" (1 right, -1 left, 0
-/// neither) and "hand_balance".
+/// Everything there is to know of a groom's curl.
+///
+/// Args:
+///     groom: A Groom, or a HelixGroom, whose places are then its joints.
+///
+/// Returns:
+///     A dictionary of arrays by name:
+///     "strands", one row a strand, NaN where there is no coil or no curve: "length", "reach",
+///     "turns", "coil_radius", "pitch", "frequency", "circularity", "hand" (1 right, -1 left, 0
+///     neither), "hand_balance", "switchbacks", "frizz";
+///     "along", one row a point or joint: "arc_length", "curvature", "twist", "radius", "pitch",
+///     "frequency", "beta", "circularity";
+///     "switchbacks", one row each: "strand", "arc_length", "before", "behind" (hands),
+///     "confidence";
+///     "spectrum", "frequency" in turns a unit of arc length and "share" of the power;
+///     and "summary" as `summarize` gives it.
 #[pyfunction]
-pub(crate) fn measure<'py>(
+pub(crate) fn analyze<'py>(
     py: Python<'py>,
-    helices: &Bound<'_, HelixGroom>,
+    groom: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let helices = &helices.get().0;
-    let all: Vec<StrandMeasures> =
-        py.detach(|| helices.iter().map(|strand| tress::analysis::measure(&strand)).collect());
+    let analysis = if let Ok(helices) = groom.cast::<HelixGroom>() {
+        let helices = &helices.get().0;
+        py.detach(|| Analysis::of_helices(helices))
+    } else {
+        let groom = &groom.cast::<Groom>()?.get().0;
+        py.detach(|| Analysis::of(groom))
+    };
+    let along = PyDict::new(py);
+    for (name, values) in analysis.along.columns() {
+        along.set_item(name, values.to_vec().into_pyarray(py))?;
+    }
     let named = PyDict::new(py);
-    let column = |of: fn(&StrandMeasures) -> f64| -> Vec<f64> { all.iter().map(of).collect() };
-    named.set_item("length", column(|m| m.length).into_pyarray(py))?;
-    named.set_item("reach", column(|m| m.reach).into_pyarray(py))?;
-    named.set_item("turns", column(|m| m.turns).into_pyarray(py))?;
-    let radii = column(|m| m.coil_radius.unwrap_or(f64::NAN));
-    named.set_item("coil_radius", radii.into_pyarray(py))?;
-    let hands = all.iter().map(|m| match m.hand {
-        Hand::Right => 1_i64,
+    named.set_item("strands", of_strands(py, &analysis.strands)?)?;
+    named.set_item("along", along)?;
+    named.set_item("switchbacks", of_switchbacks(py, &analysis.switchbacks)?)?;
+    let (frequencies, shares): (Vec<f64>, Vec<f64>) =
+        analysis.spectrum.shares().into_iter().unzip();
+    let spectrum = PyDict::new(py);
+    spectrum.set_item("frequency", frequencies.into_pyarray(py))?;
+    spectrum.set_item("share", shares.into_pyarray(py))?;
+    named.set_item("spectrum", spectrum)?;
+    named.set_item("summary", report(py, &analysis.summary())?)?;
+    Ok(named)
+}
+
+fn of_strands<'py>(
+    py: Python<'py>,
+    strands: &[Option<StrandMeasures>],
+) -> PyResult<Bound<'py, PyDict>> {
+    type Of = fn(&StrandMeasures) -> f64;
+    let columns: [(&str, Of); 11] = [
+        ("length", |m| m.length),
+        ("reach", |m| m.reach),
+        ("turns", |m| m.turns),
+        ("coil_radius", |m| m.coil_radius.unwrap_or(f64::NAN)),
+        ("pitch", |m| m.pitch.unwrap_or(f64::NAN)),
+        ("frequency", |m| m.frequency.unwrap_or(f64::NAN)),
+        ("circularity", |m| m.circularity),
+        ("hand", |m| f64::from(sign(m.hand))),
+        ("hand_balance", |m| m.hand_balance),
+        ("switchbacks", |m| m.switchbacks as f64),
+        ("frizz", |m| m.frizz),
+    ];
+    let named = PyDict::new(py);
+    for (name, of) in columns {
+        let values = strands.iter().map(|strand| strand.as_ref().map_or(f64::NAN, of));
+        named.set_item(name, values.collect::<Vec<_>>().into_pyarray(py))?;
+    }
+    Ok(named)
+}
+
+fn of_switchbacks<'py>(py: Python<'py>, found: &[Switchback]) -> PyResult<Bound<'py, PyDict>> {
+    let named = PyDict::new(py);
+    let strands = found.iter().filter_map(|s| i64::try_from(s.strand).ok());
+    named.set_item("strand", strands.collect::<Vec<_>>().into_pyarray(py))?;
+    let places: Vec<f64> = found.iter().map(|s| s.arc_length).collect();
+    named.set_item("arc_length", places.into_pyarray(py))?;
+    let before: Vec<i64> = found.iter().map(|s| i64::from(sign(s.before))).collect();
+    named.set_item("before", before.into_pyarray(py))?;
+    let behind: Vec<i64> = found.iter().map(|s| i64::from(sign(s.behind))).collect();
+    named.set_item("behind", behind.into_pyarray(py))?;
+    let confidence: Vec<f64> = found.iter().map(|s| s.confidence).collect();
+    named.set_item("confidence", confidence.into_pyarray(py))?;
+    Ok(named)
+}
+
+fn sign(hand: Hand) -> i32 {
+    match hand {
+        Hand::Right => 1,
         Hand::Left => -1,
         Hand::Neither => 0,
-    });
-    named.set_item("hand", hands.collect::<Vec<_>>().into_pyarray(py))?;
-    named.set_item("hand_balance", column(|m| m.hand_balance).into_pyarray(py))?;
-    Ok(named)
+    }
 }
 
 /// Defects as a dictionary.

@@ -80,7 +80,7 @@ pub(crate) fn ruffle<'py>(
 }
 
 /// Group numbers, each from 0 to 2^32 - 1.
-fn numbers(groups: &Bound<'_, PyAny>) -> PyResult<Vec<u32>> {
+pub(crate) fn numbers(groups: &Bound<'_, PyAny>) -> PyResult<Vec<u32>> {
     let Shaped { values, .. } = integers(groups, "groups")?;
     let narrow = |n: i64| {
         let message = || format!("groups: {n} is outside 0 to 4,294,967,295");

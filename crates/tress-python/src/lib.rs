@@ -8,9 +8,10 @@
 //! | module | Python sees |
 //! |---|---|
 //! | `groom`, `helix_groom` | the classes `Groom` and `HelixGroom` |
-//! | `fit`, `edit`, `sculpt`, `analysis`, `picture`, `files` | the functions of these topics |
+//! | `fit`, `edit`, `sculpt`, `switchback`, `grow`, `analysis`, `picture`, `files` | functions |
+//! | `helicoid`, `procedural` | the classes `HelicoidGroom` and `ProceduralGroom`, and functions |
 //! | `arrays`, `views` | arrays in, checked and copied once; arrays out, views of a groom's memory |
-//! | `plain`, `space`, `progress`, `error` | options and reports, units and axes, progress, exceptions |
+//! | `plain`, `space`, `progress`, `error` | options and reports, units, progress, exceptions |
 //!
 //! **Invariant**: a groom that Python holds never changes, so the arrays it hands out may share its
 //! memory.
@@ -22,12 +23,16 @@ mod error;
 mod files;
 mod fit;
 mod groom;
+mod grow;
+mod helicoid;
 mod helix_groom;
 mod picture;
 mod plain;
+mod procedural;
 mod progress;
 mod sculpt;
 mod space;
+mod switchback;
 mod views;
 
 /// Editing coiled hair in curvature space: the compiled part of the package `tress`.
@@ -36,7 +41,7 @@ mod _tress {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use super::analysis::{defects, measure, quantity, summarize};
+    use super::analysis::{analyze, defects, quantity, summarize};
     #[pymodule_export]
     use super::edit::{blend, groups, recoil, ruffle};
     #[pymodule_export]
@@ -48,11 +53,19 @@ mod _tress {
     #[pymodule_export]
     use super::groom::Groom;
     #[pymodule_export]
+    use super::grow::{grow, grow_presets, scatter};
+    #[pymodule_export]
+    use super::helicoid::{HelicoidGroom, fill, fit_helicoids, sample_helicoids};
+    #[pymodule_export]
     use super::helix_groom::HelixGroom;
     #[pymodule_export]
     use super::picture::{encode, render};
     #[pymodule_export]
+    use super::procedural::ProceduralGroom;
+    #[pymodule_export]
     use super::sculpt::{Sculptor, armature, sculpt};
+    #[pymodule_export]
+    use super::switchback::{insert_switchbacks, switchback};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

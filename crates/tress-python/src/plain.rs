@@ -18,6 +18,21 @@ pub(crate) fn options<T: DeserializeOwned + Default>(
     pythonize::depythonize(&named).map_err(|error| PyTypeError::new_err(error.to_string()))
 }
 
+/// Options with some of them replaced by keyword arguments; those that are None stay.
+pub(crate) fn merged<T: Serialize + DeserializeOwned>(
+    py: Python<'_>,
+    start: &T,
+    keywords: Option<&Bound<'_, PyDict>>,
+) -> PyResult<T> {
+    let all = pythonize::pythonize(py, start)?.cast_into::<PyDict>()?;
+    for (name, value) in keywords.into_iter().flatten() {
+        if !value.is_none() {
+            all.set_item(name, plain(&value)?)?;
+        }
+    }
+    pythonize::depythonize(&all).map_err(|error| PyTypeError::new_err(error.to_string()))
+}
+
 /// A dictionary, or a text in RON, as the data it describes.
 pub(crate) fn data<T: DeserializeOwned>(value: &Bound<'_, PyAny>, name: &str) -> PyResult<T> {
     if let Ok(text) = value.extract::<String>() {

@@ -6,11 +6,10 @@ import pickle
 
 import numpy as np
 import pytest
+import tress
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
-
-import tress
 
 POINTS = arrays.arrays(
     st.sampled_from([np.float64, np.float32, np.float16, np.int32, np.uint8, ">f8"]),
@@ -155,7 +154,7 @@ def test_views_are_read_only_and_outlive_their_groom(helices):
             view.flags.writeable = True
     del groom
     gc.collect()
-    assert all(np.array_equal(view, before) for view, before in zip(views, copies))
+    assert all(np.array_equal(view, before) for view, before in zip(views, copies, strict=True))
     assert helices.curvatures.base is not None
 
 

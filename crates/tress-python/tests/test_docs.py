@@ -9,7 +9,6 @@ import re
 import shutil
 
 import numpy as np
-
 import tress
 
 ROOT = pathlib.Path(__file__).parents[3]

@@ -5,7 +5,6 @@ import time
 
 import numpy as np
 import pytest
-
 import tress
 from conftest import coil_points
 
@@ -172,7 +171,12 @@ def test_anchors_without_a_meaning_are_refused(helices):
     for keywords in wrong:
         with pytest.raises(tress.TressError):
             tress.sculpt(helices, **keywords)
-    for keywords in ({}, {"strands": [0]}, anchor | {"pose": {}}, anchor | {"c": 1, "stiffness": 1}):
+    for keywords in (
+        {},
+        {"strands": [0]},
+        anchor | {"pose": {}},
+        anchor | {"c": 1, "stiffness": 1},
+    ):
         with pytest.raises(TypeError):
             tress.sculpt(helices, **keywords)
 
@@ -214,18 +218,69 @@ def test_a_sculptor_goes_on_from_its_last_pose(coils, helices):
     assert sculptor.pose == helices
 
 
-def test_measures_and_summaries(coils, helices):
-    measures = tress.measure(helices)
-    assert measures["hand"][:4].tolist() == [1, -1, 1, -1]
-    assert np.allclose(measures["turns"][:4], 10, rtol=0.1)
-    assert np.isnan(measures["coil_radius"][4])
+def test_analyses_and_summaries(coils, helices):
+    for groom in (coils, helices):
+        analysis = tress.analyze(groom)
+        strands = analysis["strands"]
+        assert strands["hand"][:4].tolist() == [1, -1, 1, -1]
+        assert np.allclose(strands["turns"][:4], 10, rtol=0.05)
+        assert np.allclose(strands["coil_radius"][:4], 0.5, rtol=0.03)
+        assert np.isnan(strands["coil_radius"][4]) and len(strands["length"]) == 5
+        places = len(coils.positions) if groom is coils else 240 + 5
+        assert all(len(values) == places for values in analysis["along"].values())
+        assert analysis["along"]["beta"][40] > 0.9 if groom is coils else True
+        assert len(analysis["switchbacks"]["strand"]) == 0
+        spectrum = analysis["spectrum"]
+        # The strongest frequency is that of the coil: a turn in hypot(2 pi R, pitch).
+        strongest = spectrum["frequency"][np.argmax(spectrum["share"])]
+        assert strongest == pytest.approx(1 / np.hypot(2 * np.pi * 0.5, 0.5), rel=0.1)
+        assert analysis["summary"]["right_handed"] == 2
     summary = tress.summarize(helices)
     assert (summary["right_handed"], summary["left_handed"]) == (2, 2)
-    assert summary["coil_radius"]["median"] == pytest.approx(0.5, rel=0.02)
+    assert summary["coil_radius"]["median"] == pytest.approx(0.5, rel=0.03)
     assert tress.summarize(helices.select([4]))["length"] is None
     assert len(tress.quantity(helices, "twist")) == 240 + 5
     found = tress.defects(coils)
     assert found["strands"] == {"of a single point": {"count": 1, "first": 4}}
+    with pytest.raises(TypeError):
+        tress.analyze(np.zeros((3, 3)))
+
+
+def test_hair_grows_from_guides(coils):
+    guides = coils.select([0, 1, 2, 3])
+    square = [[0, 0, -3], [9, 0, -3], [9, 0, 3], [0, 0, 3]]
+    triangles = [[0, 1, 2], [0, 2, 3]]
+    roots = tress.scatter(square, triangles, 60, seed=3)
+    assert roots.shape == (60, 3) and np.array_equal(roots[:, 1], np.zeros(60))
+    one_side = tress.scatter(square, triangles, 60, density=[1, 0], seed=3)
+    assert (one_side[:, 0] / 9 >= (one_side[:, 2] + 3) / 6 - 1e-9).all()
+    grown, report = tress.grow(guides, roots, seed=1)
+    assert report["hairs"] == 60 and len(grown) == 60 and grown.unit == coils.unit
+    assert np.array_equal([strand[0] for strand in grown], roots)
+    assert set(grown.strand_attributes["guide"]) <= {0, 1, 2, 3}
+    assert grown == tress.grow(guides, roots, seed=1)[0]
+    nearest, _ = tress.grow(guides, roots, assignment="Nearest", skip={"probability": 0.5})
+    distance = np.linalg.norm(roots[:, None] - [strand[0] for strand in guides], axis=2)
+    assert np.array_equal(nearest.strand_attributes["guide"], distance.argmin(axis=1))
+    for preset in tress.grow_presets():
+        assert len(tress.grow(guides, roots[:3], preset=preset, library=guides)[0]) == 3
+    refused = [
+        lambda: tress.grow(guides, roots, preset="mohawk"),
+        lambda: tress.grow(guides, roots, shorter=2.0),
+        lambda: tress.grow(tress.Groom([]), roots),
+        lambda: tress.grow(guides, roots, assignment={"Noisy": 0}),
+        lambda: tress.scatter(square, [[0, 1, 4]], 5),
+        lambda: tress.scatter(square, [[0, 1, -1]], 5),
+        lambda: tress.scatter(square, [0, 1, 2], 5),
+        lambda: tress.scatter([], [], 5),
+        lambda: tress.scatter(square, triangles, 5, density=[1, 2, 3]),
+    ]
+    for call in refused:
+        with pytest.raises(tress.TressError):
+            call()
+    for wrong in ({"skipp": 1}, {"assignment": "Far"}, {"loose": 1}):
+        with pytest.raises(TypeError):
+            tress.grow(guides, roots, **wrong)
 
 
 @pytest.mark.parametrize("extension", ["npz", "obj", "ply", "usda", "hair"])

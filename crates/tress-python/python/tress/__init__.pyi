@@ -172,9 +172,7 @@ def blend(
     space: Literal["curvature", "darboux"] = "curvature",
 ) -> HelixGroom: ...
 @overload
-def blend(
-    a: Groom, b: Groom, amount: float = 0.5, *, space: Literal["position"]
-) -> Groom: ...
+def blend(a: Groom, b: Groom, amount: float = 0.5, *, space: Literal["position"]) -> Groom: ...
 def recoil(
     helices: HelixGroom,
     *,
@@ -237,8 +235,122 @@ class Sculptor:
     ) -> Report: ...
     def sample(self, counts: ArrayLike) -> Groom: ...
 
+def grow(
+    guides: Groom,
+    roots: ArrayLike,
+    *,
+    preset: str | None = None,
+    library: Groom | None = None,
+    seed: int = 0,
+    assignment: Any = None,
+    loose: tuple[float, float] | None = None,
+    wisp: Sequence[tuple[float, float]] | None = None,
+    shorter: float | None = None,
+    skip: Mapping[str, Any] | None = None,
+    fade: tuple[float, float] | None = None,
+    opening: float | None = None,
+    locking: float | None = None,
+    coils: Literal["Guide", "Own"] | None = None,
+) -> tuple[Groom, Report]: ...
+def grow_presets() -> list[str]: ...
+def scatter(
+    vertices: ArrayLike,
+    triangles: ArrayLike,
+    count: int,
+    *,
+    density: ArrayLike | None = None,
+    seed: int = 0,
+) -> Floats: ...
+def insert_switchbacks(
+    helices: HelixGroom,
+    groups: ArrayLike | None = None,
+    *,
+    arc_lengths: ArrayLike | None = None,
+    shares: ArrayLike | None = None,
+    density: float | None = None,
+    seed: int = 0,
+    poisson_ratio: float = 0.4,
+    share: float = 0.05,
+    elements_per_turn: int = 24,
+) -> tuple[HelixGroom, Report]: ...
+def switchback(
+    v: float,
+    arc_lengths: ArrayLike,
+    *,
+    poisson_ratio: float = 0.4,
+    rest_twist: float = 0.0,
+) -> Floats: ...
+
+class HelicoidGroom:
+    @property
+    def root_positions(self) -> Floats: ...
+    @property
+    def root_frames(self) -> Floats: ...
+    @property
+    def parameters(self) -> Floats: ...
+    @property
+    def lengths(self) -> Floats: ...
+    @property
+    def offsets(self) -> NDArray[np.uint32]: ...
+    @property
+    def kept_strands(self) -> NDArray[np.uint32]: ...
+    @property
+    def unit(self) -> float | None: ...
+    @property
+    def up(self) -> UpAxis | None: ...
+    @property
+    def strand_attributes(self) -> dict[str, NDArray[Any]]: ...
+    def __len__(self) -> int: ...
+
+def fit_helicoids(
+    groom: Groom,
+    *,
+    method: Literal["Newton", "Simplex"] | None = None,
+    pieces: Mapping[str, int] | None = None,
+    roll: Literal["Bend", "Steady"] | None = None,
+    tolerance: float | None = None,
+    threshold: float | None = None,
+    shortest: float | None = None,
+    regularization: float | None = None,
+) -> tuple[HelicoidGroom, Report]: ...
+def sample_helicoids(
+    hairs: HelicoidGroom, *, points: int | None = None, counts: ArrayLike | None = None
+) -> Groom: ...
+def fill(
+    guides: HelicoidGroom,
+    roots: ArrayLike,
+    *,
+    normals: ArrayLike | None = None,
+    guide_normals: ArrayLike | None = None,
+    mixing: Literal["Bends", "Parameters"] | None = None,
+    exponent: float | None = None,
+    neighbours: int | None = None,
+) -> tuple[HelicoidGroom, NDArray[np.int64]]: ...
+
+class ProceduralGroom:
+    def __init__(
+        self,
+        guides: ArrayLike,
+        roots: ArrayLike,
+        operators: Sequence[Mapping[str, Any]] | str | None = None,
+        *,
+        seed: int = 0,
+        instancing: Mapping[str, Any] | str | None = None,
+    ) -> None: ...
+    @staticmethod
+    def read(path: Path) -> ProceduralGroom: ...
+    def write(self, path: Path) -> None: ...
+    def build(self) -> Groom: ...
+    @property
+    def operators(self) -> list[dict[str, Any]]: ...
+    @property
+    def seed(self) -> int: ...
+    @property
+    def guides(self) -> Groom: ...
+    def with_operators(self, operators: Sequence[Mapping[str, Any]] | str) -> ProceduralGroom: ...
+
 def summarize(helices: HelixGroom) -> Report: ...
-def measure(helices: HelixGroom) -> dict[str, NDArray[Any]]: ...
+def analyze(groom: Groom | HelixGroom) -> dict[str, Any]: ...
 def quantity(helices: HelixGroom, name: str) -> Floats: ...
 def defects(groom: Groom) -> Report: ...
 def render(

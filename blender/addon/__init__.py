@@ -7,7 +7,9 @@ add-on turns curves objects into grooms and back.
 | module | holds |
 |---|---|
 | `hair` | curves objects as grooms; the original kept; attributes |
-| `edits` | operators: fit, ruffle, recoil, blend, restore, switchbacks, grow |
+| `hair_operator` | what operators have in common |
+| `edits` | operators: fit, ruffle, recoil, blend, switchbacks, restore |
+| `growth` | operator: hair grown from guides on a mesh |
 | `colors` | operators: colour by a quantity |
 | `rig`, `rig_operators` | an armature of empties that moves hair while they are dragged |
 | `files` | import and export |
@@ -25,9 +27,9 @@ except ImportError as error:
         f"the package tress that this extension carries is not for {machine}: {error}"
     ) from error
 
-from . import colors, edits, files, panel, rig, rig_operators
+from . import colors, edits, files, growth, panel, rig, rig_operators
 
-MODULES = (edits, colors, rig, rig_operators, files, panel)
+MODULES = (edits, growth, colors, rig, rig_operators, files, panel)
 
 
 def register():

@@ -5,7 +5,8 @@ import numpy as np
 import tress
 from bpy.props import BoolProperty, EnumProperty, IntProperty
 
-from . import edits, hair
+from . import hair
+from .hair_operator import ELEMENTS, HairOperator
 
 COLOR = "tress_color"
 MATERIAL = "Tress Colors"
@@ -13,14 +14,17 @@ MATERIAL = "Tress Colors"
 #: The material that the hair had before it was coloured, kept on the curves.
 OWN_MATERIAL = "tress_material"
 
-#: Quantities, and whether both sides of zero mean something.
+#: Quantities: what they are called and mean, and whether both sides of zero mean something.
 QUANTITIES = {
-    "radius": ("Coil Radius", False),
-    "turns": ("Turns", False),
-    "length": ("Length", False),
-    "curvature": ("Curvature", False),
-    "twist": ("Twist", True),
-    "handedness": ("Handedness", True),
+    "radius": ("Coil Radius", "Distance from the line that the strand winds about", False),
+    "frequency": ("Frequency (omega)", "Turns in a length of that line", False),
+    "beta": ("Beta", "1 for a right-handed coil, -1 for a left-handed one, 0 for a wave", True),
+    "pitch": ("Pitch", "Advance along that line in one turn, negative to the left", True),
+    "curvature": ("Curvature", "Of the coil", False),
+    "twist": ("Twist", "Of the coil, positive to the right", True),
+    "turns": ("Turns", "From root to tip", False),
+    "length": ("Length", "Of the strand", False),
+    "handedness": ("Handedness", "1 right, -1 left, 0 neither", True),
 }
 
 #: Five colours of viridis, dark to light, and blue over white to red; linear between them.
@@ -28,29 +32,31 @@ SEQUENTIAL = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 2
 DIVERGING = ((33, 60, 140), (130, 170, 220), (245, 245, 245), (230, 150, 120), (160, 20, 40))
 
 
-class TRESS_OT_color(edits.HairOperator, bpy.types.Operator):
+class TRESS_OT_color(HairOperator, bpy.types.Operator):
     """Write a quantity as an attribute, and show it as the hair's colour"""
 
     bl_idname = "tress.color"
     bl_label = "Color by Quantity"
 
     quantity: EnumProperty(
-        name="Quantity", items=[(name, words, "") for name, (words, _) in QUANTITIES.items()]
+        name="Quantity",
+        items=[(name, label, words) for name, (label, words, _) in QUANTITIES.items()],
     )
     material: BoolProperty(
         name="Material",
         description="Give the hair a material that shows the colours",
         default=True,
     )
-    elements: IntProperty(**edits.ELEMENTS)
+    elements: IntProperty(**ELEMENTS)
 
     def run(self, _context, obj):
         polylines = hair.groom(obj)
         values = at_points(polylines, self.quantity, self.elements)
         name = f"tress_{self.quantity}"
         hair.set_numbers(obj.data, name, np.nan_to_num(values))
-        low, high = ends(values, QUANTITIES[self.quantity][1])
-        rgba = ramp(values, low, high, DIVERGING if QUANTITIES[self.quantity][1] else SEQUENTIAL)
+        signed = QUANTITIES[self.quantity][2]
+        low, high = ends(values, signed)
+        rgba = ramp(values, low, high, DIVERGING if signed else SEQUENTIAL)
         attribute = hair.fresh_attribute(obj.data, COLOR, "FLOAT_COLOR", "POINT")
         attribute.data.foreach_set("color", rgba.astype(np.float32).ravel())
         if self.material:
@@ -119,10 +125,15 @@ def show(obj):
 
 def give_back_material(obj):
     """Puts the material back that the hair had before it was coloured."""
-    material = obj.data.get(OWN_MATERIAL)
-    if material is not None and len(obj.data.materials):
-        obj.data.materials[0] = material
-        del obj.data[OWN_MATERIAL]
+    slots = obj.data.materials
+    if not len(slots) or slots[0] is None or slots[0].name != MATERIAL:
+        return
+    own = obj.data.get(OWN_MATERIAL)
+    if own is None:
+        slots.clear()
+        return
+    slots[0] = own
+    del obj.data[OWN_MATERIAL]
 
 
 def register():

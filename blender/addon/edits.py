@@ -1,4 +1,4 @@
-"""Operators that change the shape of hair, each a step that can be undone and adjusted."""
+"""Operators that fit hair and change its shape, each a step that can be undone and adjusted."""
 
 import json
 
@@ -7,39 +7,11 @@ import numpy as np
 import tress
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from . import hair
+from . import colors, hair
+from .hair_operator import ELEMENTS, SEED, HairOperator
 
 #: The fit's report on an object, as the panel shows it.
 REPORT = "tress_fit"
-
-ELEMENTS = {
-    "name": "Elements",
-    "description": "Helix arcs a strand; 0 is one for each segment",
-    "default": 0,
-    "min": 0,
-    "soft_max": 200,
-}
-SEED = {"name": "Seed", "description": "Another seed, another result", "default": 0, "min": 0}
-
-
-class HairOperator:
-    """What operators on the active hair have in common."""
-
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        return hair.is_hair(context.object)
-
-    def execute(self, context):
-        try:
-            message = self.run(context, context.object)
-        except tress.TressError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        if message:
-            self.report({"INFO"}, message)
-        return {"FINISHED"}
 
 
 class TRESS_OT_fit(HairOperator, bpy.types.Operator):
@@ -193,6 +165,48 @@ def in_space_of(obj, other):
     return hair.groom(other, points)
 
 
+class TRESS_OT_switchback(HairOperator, bpy.types.Operator):
+    """Let coils change hands: wisp by wisp, from there on they wind the other way"""
+
+    bl_idname = "tress.switchback"
+    bl_label = "Switchbacks"
+
+    count: IntProperty(name="Number", description="Switchbacks a strand", default=1, min=1)
+    scatter: BoolProperty(
+        name="At Random",
+        description="At random places with this number on average, instead of evenly spaced ones",
+        default=False,
+    )
+    clusters: IntProperty(
+        name="Wisps",
+        description="Strands of a wisp change hands at the same places; 0 is all together",
+        default=8,
+        min=0,
+    )
+    seed: IntProperty(**SEED)
+    elements: IntProperty(**ELEMENTS)
+
+    def run(self, _context, obj):
+        done = {}
+
+        def edit(helices):
+            n = min(self.clusters, len(helices))
+            groups = tress.groups(helices, clusters=n, seed=self.seed) if n else None
+            if self.scatter:
+                length = tress.summarize(helices)["length"]
+                where = {"density": self.count / length["median"] if length else 0.0}
+            else:
+                where = {"shares": [(i + 1) / (self.count + 1) for i in range(self.count)]}
+            changed, report = tress.insert_switchbacks(helices, groups, seed=self.seed, **where)
+            done.update(report)
+            return changed
+
+        hair.with_edit(obj, self.elements, edit)
+        words = f"{len(done['placed'])} switchbacks on {done['strands']} strands"
+        refused = done["no_room"] + done["no_coil"]
+        return words + (f"; {refused} places have no room or no coil" if refused else "")
+
+
 class TRESS_OT_restore(HairOperator, bpy.types.Operator):
     """Put the hair back to where it was before the first edit"""
 
@@ -208,9 +222,17 @@ class TRESS_OT_restore(HairOperator, bpy.types.Operator):
         if points is None:
             raise tress.TressError(f"{hair.ORIGINAL} is no attribute of positions")
         hair.move(obj, points)
+        colors.give_back_material(obj)
 
 
-CLASSES = (TRESS_OT_fit, TRESS_OT_ruffle, TRESS_OT_recoil, TRESS_OT_blend, TRESS_OT_restore)
+CLASSES = (
+    TRESS_OT_fit,
+    TRESS_OT_ruffle,
+    TRESS_OT_recoil,
+    TRESS_OT_blend,
+    TRESS_OT_switchback,
+    TRESS_OT_restore,
+)
 
 
 def register():

@@ -7,10 +7,11 @@ import tress
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 from mathutils import Matrix, Vector
 
-from . import edits, hair, rig
+from . import hair, rig
+from .hair_operator import HairOperator
 
 
-class TRESS_OT_armature_add(edits.HairOperator, bpy.types.Operator):
+class TRESS_OT_armature_add(HairOperator, bpy.types.Operator):
     """Put a chain of empties on each wisp: move, turn or scale them and the hair follows"""
 
     bl_idname = "tress.armature_add"
@@ -82,7 +83,7 @@ def joint_size(group):
     return 0.1 * reach or 0.05
 
 
-class TRESS_OT_armature_update(edits.HairOperator, bpy.types.Operator):
+class TRESS_OT_armature_update(HairOperator, bpy.types.Operator):
     """Move the hair to where its empties are, after undo or when something else moved them"""
 
     bl_idname = "tress.armature_update"
@@ -99,7 +100,7 @@ class TRESS_OT_armature_update(edits.HairOperator, bpy.types.Operator):
         return f"{report['moved']} strands moved; anchors missed by {distance:.3g} at most"
 
 
-class TRESS_OT_armature_remove(edits.HairOperator, bpy.types.Operator):
+class TRESS_OT_armature_remove(HairOperator, bpy.types.Operator):
     """Take the armature off; the hair stays where it was sculpted to, or goes back to rest"""
 
     bl_idname = "tress.armature_remove"

@@ -94,8 +94,12 @@ def pose(obj, empties):
             moved["rotate"] = tuple(np.degrees(turn))
             moved["scale"] = tuple(scale)
         groups.setdefault(joint.cluster, []).append(moved)
-    select = [{"Attribute": {"name": CLUSTER, "value": float(c)}} for c in groups]
-    return {"groups": [{"select": s, "joints": j} for s, j in zip(select, groups.values())]}
+    return {
+        "groups": [
+            {"select": {"Attribute": {"name": CLUSTER, "value": float(cluster)}}, "joints": chain}
+            for cluster, chain in groups.items()
+        ]
+    }
 
 
 def drag(obj):

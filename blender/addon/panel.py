@@ -30,6 +30,7 @@ class TRESS_PT_panel(bpy.types.Panel):
         column.operator("tress.ruffle")
         column.operator("tress.recoil")
         column.operator("tress.blend")
+        column.operator("tress.switchback")
         column.operator("tress.restore", icon="LOOP_BACK")
         column = layout.column(align=True)
         column.label(text="Sculpt")
@@ -39,6 +40,7 @@ class TRESS_PT_panel(bpy.types.Panel):
             column.operator("tress.armature_remove", text="Discard", icon="X").apply = False
         else:
             column.operator("tress.armature_add", icon="EMPTY_AXIS")
+        layout.operator("tress.grow", icon="OUTLINER_OB_CURVES")
         layout.operator("tress.color", icon="COLOR")
 
 

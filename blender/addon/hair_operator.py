@@ -1,0 +1,34 @@
+"""What operators on hair have in common."""
+
+import tress
+
+from . import hair
+
+ELEMENTS = {
+    "name": "Elements",
+    "description": "Helix arcs a strand; 0 is one for each segment",
+    "default": 0,
+    "min": 0,
+    "soft_max": 200,
+}
+SEED = {"name": "Seed", "description": "Another seed, another result", "default": 0, "min": 0}
+
+
+class HairOperator:
+    """What operators on the active hair have in common."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return hair.is_hair(context.object)
+
+    def execute(self, context):
+        try:
+            message = self.run(context, context.object)
+        except tress.TressError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if message:
+            self.report({"INFO"}, message)
+        return {"FINISHED"}
