@@ -1,0 +1,55 @@
+//! The Python package, built, installed into an environment of its own and tested.
+
+use std::env;
+use std::ffi::OsString;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use crate::{root, say};
+
+/// What building and testing need beside Python itself.
+const NEEDS: &str = "maturin, numpy, pytest, hypothesis";
+
+/// Installs the package of this repository beside the interpreter's own packages, without asking
+/// any server, and runs its tests; where the interpreter or something it needs is not there, says
+/// so and is content.
+pub(crate) fn test() -> Result<(), String> {
+    let Some(python) = interpreter() else {
+        say(&format!(
+            "the Python package is not tested: there is no Python 3.11 or later with {NEEDS}"
+        ));
+        return Ok(());
+    };
+    let folder = root().join("target/python");
+    call(Command::new(&python).args(["-m", "venv", "--system-site-packages"]).arg(&folder))?;
+    let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let install =
+        ["-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--no-build-isolation"];
+    call(within(&own).args(install).args(["--force-reinstall", "."]))?;
+    call(within(&own).args(["-m", "pytest", "crates/tress-python/tests"]))
+}
+
+/// `PYTHON`, or `python3`, if it has what is needed.
+fn interpreter() -> Option<OsString> {
+    let python = env::var_os("PYTHON").unwrap_or_else(|| "python3".into());
+    let check = format!("import sys, {NEEDS}; sys.exit(sys.version_info < (3, 11))");
+    let status = Command::new(&python)
+        .args(["-c", &check])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
+    status.is_ok_and(|status| status.success()).then_some(python)
+}
+
+/// An interpreter that works in the root of the repository.
+fn within(python: &Path) -> Command {
+    let mut command = Command::new(python);
+    command.current_dir(root());
+    command
+}
+
+fn call(command: &mut Command) -> Result<(), String> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    let status = command.status().map_err(|error| format!("{name} does not start: {error}"))?;
+    if status.success() { Ok(()) } else { Err(format!("{name} failed: {command:?}")) }
+}
