@@ -13,19 +13,13 @@ use crate::progress::Progress;
 use crate::report::{Report, count};
 use crate::source::Curved;
 
-/// Says no before any work is done: to a format that cannot be written, and to the input itself.
+/// Says no before any work is done: to a format that is not known, and to the input itself.
 pub(crate) fn check(
     inputs: &[&Path],
     output: &Path,
     everywhere: &Everywhere,
 ) -> Result<Format, Failure> {
     let format = Format::from_path(output)?;
-    if let Err(advice) = format.writable() {
-        let extension = format.extension();
-        let file = output.display();
-        let message = format!("{file}: .{extension} files are read, not written; {advice}");
-        return Err(Failure::Failed(message));
-    }
     check_in_place(inputs, output, everywhere)?;
     Ok(format)
 }

@@ -235,23 +235,6 @@ pub enum WriteError {
     /// The extension names no format.
     #[error(transparent)]
     Format(#[from] UnknownExtension),
-    /// A format that is only read.
-    ///
-    /// ```
-    /// # use tress_geometry::{Groom, Strands};
-    /// let groom = Groom::new(Strands::default());
-    /// let error = tress_io::write("hair.usdc", &groom, &Default::default()).unwrap_err();
-    /// assert!(error.to_string().starts_with("hair.usdc: .usdc files are read, not written"));
-    /// ```
-    #[error("{}: .{} files are read, not written; {advice}", path.display(), format.extension())]
-    ReadOnly {
-        /// The path.
-        path: PathBuf,
-        /// Its format.
-        format: Format,
-        /// What to do instead.
-        advice: &'static str,
-    },
     /// The groom does not fit the format, or the disk does not take it.
     #[error("{}: {source}", path.display())]
     Encode {

@@ -164,21 +164,9 @@ impl Format {
             Self::Npz => "numpy arrays by name",
             Self::Tress => "super-helices, exactly as they are",
             Self::Usda => "USD BasisCurves, text",
-            Self::Usdc => "USD BasisCurves, binary (read only)",
-            Self::Usd => "USD BasisCurves, text or binary (read only)",
+            Self::Usdc => "USD BasisCurves, binary",
+            Self::Usd => "USD BasisCurves, text or binary (written as binary)",
             Self::Abc => "Alembic curves",
-        }
-    }
-
-    /// Whether files of this format are written, and where not, what to do instead.
-    ///
-    /// # Errors
-    ///
-    /// For formats that are only read, the advice.
-    pub fn writable(self) -> Result<(), &'static str> {
-        match self {
-            Self::Usdc | Self::Usd => Err("write .usda, which every USD tool reads as well"),
-            _ => Ok(()),
         }
     }
 

@@ -14,7 +14,7 @@
 //! | `.npy`, `.npz` | [`npy`], [`npz`] | nothing; everything |
 //! | `.tress` | [`native`] | super-helices and everything that belongs to them, bit for bit |
 //! | `.usda`, `.usdc`, `.usd` | [`usd`] | everything |
-//! | `.abc` | [`alembic`] | widths and other columns; read only |
+//! | `.abc` | [`alembic`] | everything |
 //!
 //! ```
 //! use glam::DVec3;
@@ -43,6 +43,7 @@
 //! never starts a thread.
 
 pub mod alembic;
+mod animation;
 mod basis_curves;
 mod binary;
 mod chain;
@@ -52,7 +53,6 @@ pub mod ct2hair;
 pub mod data;
 mod error;
 mod format;
-mod frames;
 pub mod hair;
 mod loss;
 pub mod mesh;
@@ -65,13 +65,14 @@ pub mod ply;
 mod read;
 mod text;
 pub mod tfx;
+pub mod unreal;
 pub mod usd;
 mod widths;
 mod write;
 
+pub use animation::{Animation, Frames, write_animation};
 pub use error::{EncodeError, ParseError, Place, Problem, ReadError, UnknownExtension, WriteError};
 pub use format::{Carries, Columns, Format};
-pub use frames::Frames;
 pub use loss::{Loss, losses};
 pub use read::{Model, read};
 pub use write::{UsdCurves, WriteOptions, write, write_bytes, write_helices};

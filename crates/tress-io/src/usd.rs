@@ -40,8 +40,8 @@
 //! - Strands of no or one point are written as they are. USD calls such curves invalid, Pixar's
 //!   library reads them, and none is lost on the way back; some renderers leave the prim out.
 //!
-//! Binary files are not written: what openusd 0.6 writes, Pixar's library refuses. `usdcat
-//! --out hair.usdc hair.usda` turns one into the other.
+//! `.usdc` and `.usd` hold the same prims in binary, written by this module as well: what openusd 0.6
+//! writes, Pixar's library refuses.
 //!
 //! # Broken files
 //!
@@ -49,12 +49,13 @@
 //! it (see `usd/stage/crate_file.rs`), and text is held to a depth of nesting that its recursive parser
 //! survives. What indexing errors are left in it end as an error, not as a panic of the caller.
 
+pub(crate) mod binary;
 mod primvars;
 #[cfg_attr(not(feature = "usd"), path = "usd/no_stage.rs")]
 mod stage;
 mod writer;
 
-use std::io::Write;
+use std::io::{Seek, Write};
 use std::path::Path;
 
 use tress_geometry::Groom;
@@ -99,7 +100,17 @@ use crate::{EncodeError, ParseError, WriteOptions};
 /// If the file cannot be read, is not a USD layer, the feature `usd` is off, or holds curves whose counts do not match. A
 /// stage without curves is a groom without strands.
 pub fn read(path: &Path) -> Result<Groom, ParseError> {
-    stage::read(path)
+    stage::read(path, None)
+}
+
+/// Reads the curves of a stage at a time code.
+pub(crate) fn read_at(path: &Path, code: f64) -> Result<Groom, ParseError> {
+    stage::read(path, Some(code))
+}
+
+/// The time codes at which the points of a stage's curves have samples, and how many a second has.
+pub(crate) fn times(path: &Path) -> Result<(Vec<f64>, f64), ParseError> {
+    stage::times(path)
 }
 
 /// Writes a groom as `.usda`.
@@ -126,6 +137,34 @@ pub fn write(
     out: &mut impl Write,
 ) -> Result<(), EncodeError> {
     writer::write(groom, options.usd_curves, out)
+}
+
+/// Writes a groom as `.usdc`.
+///
+/// ```
+/// use glam::DVec3;
+/// use std::io::Cursor;
+/// use tress_geometry::{Groom, Strands};
+/// use tress_io::{WriteOptions, usd};
+///
+/// let strands = Strands::from_counts([2], vec![DVec3::ZERO, DVec3::X])?;
+/// let mut binary = Cursor::new(Vec::new());
+/// usd::write_binary(&Groom::new(strands), &WriteOptions::default(), &mut binary)?;
+/// assert!(binary.into_inner().starts_with(b"PXR-USDC"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// If the stream takes no more, or a strand has more points than USD can count (2^31).
+pub fn write_binary(
+    groom: &Groom,
+    options: &WriteOptions,
+    out: &mut (impl Write + Seek),
+) -> Result<(), EncodeError> {
+    let mut writer = binary::Writer::new(out, groom, options.usd_curves, None)?;
+    writer.push(groom)?;
+    writer.finish().map(drop)
 }
 
 fn check_counts(groom: &Groom) -> Result<(), EncodeError> {

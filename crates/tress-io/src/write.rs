@@ -50,9 +50,6 @@ pub fn write(
 ) -> Result<Vec<Loss>, WriteError> {
     let path = path.as_ref();
     let format = Format::from_path(path)?;
-    if let Err(advice) = format.writable() {
-        return Err(WriteError::ReadOnly { path: path.into(), format, advice });
-    }
     whole(path, |out| match format {
         Format::Obj => obj::write(groom, out),
         Format::Hair => hair::write(groom, out),
@@ -67,9 +64,7 @@ pub fn write(
         Format::Tress => Err(EncodeError::Groom(
             "a .tress file holds super-helices, not polylines: fit them first".into(),
         )),
-        Format::Usdc | Format::Usd => {
-            Err(EncodeError::Groom(format!("{format} files are not written")))
-        }
+        Format::Usdc | Format::Usd => usd::write_binary(groom, options, out),
     })?;
     Ok(losses(groom, format))
 }
@@ -101,10 +96,10 @@ pub fn write_bytes(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), WriteErro
 }
 
 /// The stream that writers of files write to.
-type Out = BufWriter<NamedTempFile>;
+pub(crate) type Out = BufWriter<NamedTempFile>;
 
 /// Lets `encode` fill a file that takes the name `path` once it is whole.
-fn whole(
+pub(crate) fn whole(
     path: &Path,
     encode: impl FnOnce(&mut Out) -> Result<(), EncodeError>,
 ) -> Result<(), WriteError> {

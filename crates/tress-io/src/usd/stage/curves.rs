@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 use openusd::sdf::Value;
-use openusd::usd::{Prim, TimeCode};
+use openusd::usd::Prim;
 use tress_geometry::curves::CubicBasis;
 use tress_geometry::{Column, Groom, Strands, names};
 
-use super::{part, transform, unreadable, values};
+use super::{Moment, part, transform, unreadable, values};
 use crate::basis_curves::{self, BasisCurves, CurveType, Rows, Wrap};
 use crate::{ParseError, Place, Problem};
 
@@ -15,11 +15,11 @@ const PRIMVARS: &str = "primvars:";
 const INDICES: &str = ":indices";
 
 /// The curves of `prim`, evaluated and moved to where they stand on the stage.
-pub(super) fn read(prim: &Prim) -> Result<Groom, ParseError> {
-    let Some(curves) = topology(prim)? else {
+pub(super) fn read(prim: &Prim, moment: Moment) -> Result<Groom, ParseError> {
+    let Some(curves) = topology(prim, moment)? else {
         return Ok(Groom::new(Strands::default()));
     };
-    let positions = positions(prim, &curves)?;
+    let positions = positions(prim, moment, &curves)?;
     let strands = Strands::from_counts(curves.strand_counts(), positions)
         .map_err(|error| Problem::Unsupported(error.to_string()).at(part(prim.path())))?;
     let mut groom = Groom::new(strands);
@@ -39,17 +39,17 @@ pub(super) fn read(prim: &Prim) -> Result<Groom, ParseError> {
             other => other,
         };
         uv_found |= name == names::ROOT_UV;
-        attach(&mut groom, prim, &curves, property, name, Rows::Constant)?;
+        attach(&mut groom, (prim, moment), &curves, property, name, Rows::Constant)?;
     }
-    attach(&mut groom, prim, &curves, "widths", names::WIDTH, Rows::Vertex)?;
+    attach(&mut groom, (prim, moment), &curves, "widths", names::WIDTH, Rows::Vertex)?;
     Ok(groom)
 }
 
 /// Type, wrap and counts, checked against the number of points; nothing for a prim without curves.
-fn topology(prim: &Prim) -> Result<Option<BasisCurves>, ParseError> {
-    let counts = match first_value(prim, "curveVertexCounts")? {
+fn topology(prim: &Prim, moment: Moment) -> Result<Option<BasisCurves>, ParseError> {
+    let counts = match moment.value(prim, "curveVertexCounts")? {
         Some(Value::IntVec(counts)) => counts,
-        None if first_value(prim, "points")?.is_none() => return Ok(None),
+        None if moment.value(prim, "points")?.is_none() => return Ok(None),
         other => return Err(unexpected(prim, "curveVertexCounts", "an array of int", other)),
     };
     let counts: Result<Vec<usize>, _> = counts.iter().map(|&n| usize::try_from(n)).collect();
@@ -58,7 +58,7 @@ fn topology(prim: &Prim) -> Result<Option<BasisCurves>, ParseError> {
         problem.at(property(prim, "curveVertexCounts"))
     })?;
     let token = |name: &'static str, fallback: &'static str| {
-        Ok::<_, ParseError>(match first_value(prim, name)? {
+        Ok::<_, ParseError>(match moment.value(prim, name)? {
             Some(Value::Token(token)) => token.as_str().to_owned(),
             Some(other) => return Err(unexpected(prim, name, "a token", Some(other))),
             None => fallback.to_owned(),
@@ -92,8 +92,8 @@ fn topology(prim: &Prim) -> Result<Option<BasisCurves>, ParseError> {
 }
 
 /// The points of the result on the stage.
-fn positions(prim: &Prim, curves: &BasisCurves) -> Result<Vec<DVec3>, ParseError> {
-    let value = first_value(prim, "points")?;
+fn positions(prim: &Prim, moment: Moment, curves: &BasisCurves) -> Result<Vec<DVec3>, ParseError> {
+    let value = moment.value(prim, "points")?;
     let expected = "an array of 3D points";
     let (rows, controls) = match value.and_then(values::column) {
         Some(column @ Column::Float { components: 3, .. }) => (column.rows(), column),
@@ -109,7 +109,7 @@ fn positions(prim: &Prim, curves: &BasisCurves) -> Result<Vec<DVec3>, ParseError
     let Column::Float { values, .. } = curves.at_control_points(controls) else {
         return Ok(Vec::new());
     };
-    let matrix = transform::local_to_world(prim)?;
+    let matrix = transform::local_to_world(prim, moment)?;
     let points = values.chunks_exact(3).map(DVec3::from_slice);
     // Not even the last bit changes where nothing moves.
     Ok(if matrix == glam::DMat4::IDENTITY {
@@ -122,19 +122,19 @@ fn positions(prim: &Prim, curves: &BasisCurves) -> Result<Vec<DVec3>, ParseError
 /// Adds the attribute `property` to `groom` under `name`, if it is there and numeric.
 fn attach(
     groom: &mut Groom,
-    prim: &Prim,
+    (prim, moment): (&Prim, Moment),
     curves: &BasisCurves,
     property_name: &str,
     name: &str,
     fallback: Rows,
 ) -> Result<(), ParseError> {
-    let Some(column) = first_value(prim, property_name)?.and_then(values::column) else {
+    let Some(column) = moment.value(prim, property_name)?.and_then(values::column) else {
         return Ok(());
     };
     let attribute = prim.attribute(property_name);
     let size = attribute.get_metadata::<Value>("elementSize").ok().flatten();
     let column = wide_rows(column, size.as_ref().and_then(values::count).unwrap_or(1));
-    let column = indexed(column, prim, property_name)?;
+    let column = indexed(column, (prim, moment), property_name)?;
     let declared = match attribute.get_metadata::<Value>("interpolation").ok().flatten() {
         Some(Value::Token(token)) => match token.as_str() {
             "constant" => Rows::Constant,
@@ -162,9 +162,13 @@ fn wide_rows(column: Column, size: usize) -> Column {
 }
 
 /// The rows that `NAME:indices` picks, where the attribute has such indices.
-fn indexed(column: Column, prim: &Prim, property_name: &str) -> Result<Column, ParseError> {
+fn indexed(
+    column: Column,
+    (prim, moment): (&Prim, Moment),
+    property_name: &str,
+) -> Result<Column, ParseError> {
     let name = format!("{property_name}{INDICES}");
-    let Some(Value::IntVec(indices)) = first_value(prim, &name)? else { return Ok(column) };
+    let Some(Value::IntVec(indices)) = moment.value(prim, &name)? else { return Ok(column) };
     let rows = column.rows();
     let indices: Option<Vec<usize>> =
         indices.iter().map(|&i| usize::try_from(i).ok().filter(|i| *i < rows)).collect();
@@ -175,19 +179,6 @@ fn indexed(column: Column, prim: &Prim, property_name: &str) -> Result<Column, P
             Err(problem.at(property(prim, &name)))
         }
     }
-}
-
-/// The default of an attribute, or its first sample; nothing where it has no value or is blocked.
-pub(super) fn first_value(prim: &Prim, name: &str) -> Result<Option<Value>, ParseError> {
-    let attribute = prim.attribute(name);
-    let value = attribute.get::<Value>().map_err(|e| unreadable(property(prim, name), &e))?;
-    let value = match value {
-        None => attribute
-            .get_at::<Value>(TimeCode::EARLIEST)
-            .map_err(|e| unreadable(property(prim, name), &e))?,
-        some => some,
-    };
-    Ok(value.filter(|value| !matches!(value, Value::ValueBlock | Value::None)))
 }
 
 /// The kind of a value, for messages.

@@ -1,7 +1,7 @@
 //! Where a prim stands: the `xformOp`s of the prim and its ancestors.
 //!
 //! openusd can compose these (its feature `geom`), but only at a time code; here each op is read
-//! as everything else is, by its default or its first sample.
+//! as everything else is, see `Moment`.
 //!
 //! USD multiplies row vectors, `p' = p M`; glam multiplies column vectors. The rows of USD's
 //! matrices are glam's columns, and `xformOpOrder`, whose last op is applied first, is a product
@@ -11,8 +11,8 @@ use glam::{DMat4, DQuat, DVec3};
 use openusd::sdf::{self, Value};
 use openusd::usd::Prim;
 
-use super::curves::{first_value, text};
-use super::{part, unreadable, values};
+use super::curves::text;
+use super::{Moment, part, unreadable, values};
 use crate::{ParseError, Problem};
 
 /// Takes no transform from the ancestors.
@@ -21,12 +21,12 @@ const RESET: &str = "!resetXformStack!";
 const INVERT: &str = "!invert!";
 
 /// What takes the points of `prim` to the stage.
-pub(super) fn local_to_world(prim: &Prim) -> Result<DMat4, ParseError> {
+pub(super) fn local_to_world(prim: &Prim, moment: Moment) -> Result<DMat4, ParseError> {
     let mut world = DMat4::IDENTITY;
     let paths = std::iter::successors(Some(prim.path().clone()), sdf::Path::parent);
     for path in paths.take_while(|path| *path != sdf::Path::abs_root()) {
         let ancestor = prim.stage().prim(path);
-        let (local, resets) = local_to_parent(&ancestor)?;
+        let (local, resets) = local_to_parent(&ancestor, moment)?;
         world = local * world;
         if resets {
             break;
@@ -36,11 +36,11 @@ pub(super) fn local_to_world(prim: &Prim) -> Result<DMat4, ParseError> {
 }
 
 /// What takes the points of `prim` to its parent, and whether that is the stage.
-fn local_to_parent(prim: &Prim) -> Result<(DMat4, bool), ParseError> {
+fn local_to_parent(prim: &Prim, moment: Moment) -> Result<(DMat4, bool), ParseError> {
     let type_name = prim.type_name().map_err(|e| unreadable(part(prim.path()), &e))?;
     // Only these have no transform, whatever attributes they carry.
     let fixed = type_name.is_none_or(|name| matches!(name.as_str(), "" | "Scope"));
-    let order = if fixed { None } else { first_value(prim, "xformOpOrder")? };
+    let order = if fixed { None } else { moment.value(prim, "xformOpOrder")? };
     let ops = match order {
         Some(Value::TokenVec(ops)) => ops,
         _ => return Ok((DMat4::IDENTITY, false)),
@@ -56,7 +56,7 @@ fn local_to_parent(prim: &Prim) -> Result<(DMat4, bool), ParseError> {
             Some(name) => (name, true),
             None => (op.as_str(), false),
         };
-        let Some(value) = first_value(prim, name)? else { continue };
+        let Some(value) = moment.value(prim, name)? else { continue };
         let Some(step) = op_matrix(name, &value) else {
             let expected = "a translate, rotate, scale, orient or transform with its numbers";
             let place = part(&prim.path().append_property(name).unwrap_or_default());
