@@ -54,6 +54,43 @@ pub fn arcs(profile: &impl Profile, half_length: f64, steps: usize) -> Vec<Eleme
     (0..steps).map(arc).collect()
 }
 
+/// A strand with the switchback in its middle: as far as its coils turn `turns` times on either
+/// side, of coil radius `radius`, in `arcs_per_turn` arcs to a turn. The axis before the switchback
+/// is the x axis.
+///
+/// ```
+/// use tress_geometry::SuperHelix;
+/// use tress_switchback::{Material, Switchback, strand};
+///
+/// let switchback = Switchback::new(0.4, &Material::default())?;
+/// let (root, elements) = strand(&switchback, 0.5, 12.0, 32);
+/// assert!((elements[0].radius() - 0.5).abs() < 1e-6);
+/// // The axis is the same line on both sides.
+/// let tip = SuperHelix { root, elements: &elements }.tip().position;
+/// assert!((tip.y.hypot(tip.z) - 0.5).abs() < 0.01);
+/// # Ok::<(), tress_switchback::SwitchbackError>(())
+/// ```
+#[must_use]
+pub fn strand(
+    profile: &impl Profile,
+    radius: f64,
+    turns: f64,
+    arcs_per_turn: usize,
+) -> (Frame, Vec<Element>) {
+    let [before, _] = profile.ends();
+    let coil = Element { curvature: material_curvature(before), length: 0.0 };
+    let scale = radius / coil.radius();
+    let half_length = turns * std::f64::consts::TAU / before.length();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+    let steps = (2.0 * turns * arcs_per_turn as f64).ceil() as usize;
+    let mut elements = arcs(profile, half_length, steps);
+    for element in &mut elements {
+        element.curvature /= scale;
+        element.length *= scale;
+    }
+    (coil_frame(coil.curvature / scale), elements)
+}
+
 /// The material curvature at one of the two Gauss points of a step.
 fn gauss(profile: &impl Profile, begins: f64, h: f64, side: f64) -> DVec3 {
     let s = begins + h * (0.5 + side * GAUSS);
