@@ -126,7 +126,7 @@ def forget(obj=None):
 
 @persistent
 def after_update(_scene, depsgraph):
-    """Moves hair whose empties have moved."""
+    """Moves hair whose empties have moved, by hand or by animation."""
     global _busy
     if _busy or not depsgraph.id_type_updated("OBJECT"):
         return
@@ -157,13 +157,15 @@ def before_load(*_arguments):
 def register():
     bpy.utils.register_class(TressJoint)
     bpy.types.Object.tress_joint = bpy.props.PointerProperty(type=TressJoint)
-    bpy.app.handlers.depsgraph_update_post.append(after_update)
+    for handlers in (bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.frame_change_post):
+        handlers.append(after_update)
     bpy.app.handlers.load_pre.append(before_load)
 
 
 def unregister():
     bpy.app.handlers.load_pre.remove(before_load)
-    bpy.app.handlers.depsgraph_update_post.remove(after_update)
+    for handlers in (bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.frame_change_post):
+        handlers.remove(after_update)
     del bpy.types.Object.tress_joint
     bpy.utils.unregister_class(TressJoint)
     forget()

@@ -5,11 +5,7 @@ frame, and each frame is one update of the view layer, as each movement of the m
 not in the figure is the drawing, for which a window would be needed.
 """
 
-import pathlib
-import sys
 import time
-
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 import bpy
 import conftest

@@ -267,6 +267,22 @@ def test_an_armature_survives_saving_and_loading(scene, addon, tmp_path):
     assert np.abs(positions(obj) - before).max() > 0.05
 
 
+def test_animated_empties_move_the_hair(scene, addon):
+    obj = make_hair(count=4)
+    bpy.ops.tress.armature_add(clusters=1, joints=1)
+    (empty,) = addon.rig.joints(obj)
+    empty.keyframe_insert("location", frame=1)
+    empty.location.x += 0.2
+    empty.keyframe_insert("location", frame=11)
+    scene.frame_set(1)
+    tips = []
+    for frame in (1, 6, 11):
+        scene.frame_set(frame)
+        tips.append(positions(obj).reshape(4, POINTS, 3)[:, -1, 0].mean())
+    assert tips[2] - tips[0] == pytest.approx(0.2, abs=0.01)
+    assert tips[1] - tips[0] == pytest.approx(0.1, abs=0.01)
+
+
 def test_undo_takes_an_edit_back(scene):
     make_hair()
     bpy.ops.ed.undo_push(message="hair")

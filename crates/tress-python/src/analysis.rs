@@ -93,6 +93,29 @@ pub(crate) fn analyze<'py>(
     Ok(named)
 }
 
+/// How far two grooms are apart.
+///
+/// Args:
+///     a, b: Two Grooms in the same unit.
+///
+/// Returns:
+///     A dictionary: "nearest", distances from each point of either to the other; "by_index",
+///     distances of strands of the same index; "distributions", how far lengths, turns, coil radii
+///     and more must move to be distributed as the other's; None where there is nothing to compare.
+#[pyfunction]
+pub(crate) fn compare<'py>(
+    py: Python<'py>,
+    a: &Bound<'_, Groom>,
+    b: &Bound<'_, Groom>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (a, b) = (&a.get().0, &b.get().0);
+    let comparison = py.detach(|| {
+        let analyses = [a, b].map(Analysis::of);
+        tress::analysis::compare([a, b], [&analyses[0], &analyses[1]])
+    });
+    report(py, &comparison)
+}
+
 fn of_strands<'py>(
     py: Python<'py>,
     strands: &[Option<StrandMeasures>],

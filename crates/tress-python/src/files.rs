@@ -2,7 +2,10 @@
 
 use std::path::PathBuf;
 
+use numpy::IntoPyArray;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use tress::io::unreal::{self, Placement, UnrealOptions};
 use tress::io::{Model, UsdCurves, WriteOptions};
 
 use crate::error::{TressError, not_read, not_written};
@@ -47,15 +50,7 @@ pub(crate) fn write(
     groom: &Bound<'_, PyAny>,
     usd_curves: &str,
 ) -> PyResult<Vec<String>> {
-    let usd_curves = match usd_curves {
-        "linear" => UsdCurves::Linear,
-        "catmull-rom" => UsdCurves::CatmullRom,
-        other => {
-            return Err(TressError::new_err(format!(
-                "usd_curves: expected \"linear\" or \"catmull-rom\", found {other:?}"
-            )));
-        }
-    };
+    let usd_curves = self::usd_curves(usd_curves)?;
     if let Ok(helices) = groom.cast::<HelixGroom>() {
         let helices = &helices.get().0;
         py.detach(|| tress::io::write_helices(path, helices)).map_err(not_written)?;
@@ -65,4 +60,57 @@ pub(crate) fn write(
     let options = WriteOptions { usd_curves };
     let lost = py.detach(|| tress::io::write(path, groom, &options)).map_err(not_written)?;
     Ok(lost.iter().map(ToString::to_string).collect())
+}
+
+/// What is said to lie between points in USD.
+pub(crate) fn usd_curves(name: &str) -> PyResult<UsdCurves> {
+    match name {
+        "linear" => Ok(UsdCurves::Linear),
+        "catmull-rom" => Ok(UsdCurves::CatmullRom),
+        other => Err(TressError::new_err(format!(
+            "usd_curves: expected \"linear\" or \"catmull-rom\", found {other:?}"
+        ))),
+    }
+}
+
+/// Writes an .abc file as Unreal's groom importer wants it: in centimetres, with its parameters, and
+/// with no more points a strand than it takes.
+///
+/// Args:
+///     path: The file.
+///     groom: The polylines; "group", "id", "uv", "width" and "color" become Unreal's parameters.
+///     most_points: Points that a strand may have.
+///     placement: Where points are put on strands that have more: by "curvature", or "uniform" for
+///         comparison.
+///
+/// Returns:
+///     A report: "resampled" strands, the "most_points" one had, "errors" of each strand in
+///     centimetres, and whether the "unit_is_assumed".
+#[pyfunction]
+#[pyo3(signature = (path, groom, *, most_points=255, placement="curvature"))]
+pub(crate) fn write_unreal<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    groom: &Bound<'_, Groom>,
+    most_points: usize,
+    placement: &str,
+) -> PyResult<Bound<'py, PyDict>> {
+    let placement = match placement {
+        "curvature" => Placement::Curvature,
+        "uniform" => Placement::Uniform,
+        other => {
+            return Err(TressError::new_err(format!(
+                "placement: expected \"curvature\" or \"uniform\", found {other:?}"
+            )));
+        }
+    };
+    let options = UnrealOptions { most_points, placement };
+    let groom = &groom.get().0;
+    let told = py.detach(|| unreal::write(path, groom, &options)).map_err(not_written)?;
+    let named = PyDict::new(py);
+    named.set_item("resampled", told.resampled)?;
+    named.set_item("most_points", told.most_points)?;
+    named.set_item("errors", told.errors.into_pyarray(py))?;
+    named.set_item("unit_is_assumed", told.unit_is_assumed)?;
+    Ok(named)
 }

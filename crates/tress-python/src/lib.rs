@@ -17,6 +17,7 @@
 //! memory.
 
 mod analysis;
+mod animation;
 mod arrays;
 mod edit;
 mod error;
@@ -41,13 +42,15 @@ mod _tress {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use super::analysis::{analyze, defects, quantity, summarize};
+    use super::analysis::{analyze, compare, defects, quantity, summarize};
+    #[pymodule_export]
+    use super::animation::{Animation, write as write_animation};
     #[pymodule_export]
     use super::edit::{blend, groups, recoil, ruffle};
     #[pymodule_export]
     use super::error::TressError;
     #[pymodule_export]
-    use super::files::{read, write};
+    use super::files::{read, write, write_unreal};
     #[pymodule_export]
     use super::fit::{fit, sample};
     #[pymodule_export]

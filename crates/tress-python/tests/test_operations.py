@@ -360,3 +360,139 @@ def test_everything_is_documented_and_typed():
             for member in (m for m in vars(thing) if not m.startswith("_")):
                 assert f"def {member}(" in text, f"{name}.{member} has no stub"
                 assert vars(thing)[member].__doc__, f"{name}.{member} has no document"
+
+
+def test_switchbacks_change_hands_and_keep_lengths(helices):
+    helices = helices.select([0, 1, 2, 3])
+    changed, report = tress.insert_switchbacks(helices, shares=[0.5])
+    assert report["strands"] == 4 and len(report["placed"]) == 4
+    assert np.add.reduceat(changed.lengths, changed.offsets[:-1]) == pytest.approx(
+        np.add.reduceat(helices.lengths, helices.offsets[:-1])
+    )
+    found = tress.analyze(changed)["switchbacks"]
+    assert found["strand"].tolist() == [0, 1, 2, 3]
+    assert (found["before"] * found["behind"] == -1).all()
+    again, _ = tress.insert_switchbacks(helices, [0, 0, 1, 1], density=0.05, seed=4)
+    assert again == tress.insert_switchbacks(helices, [0, 0, 1, 1], density=0.05, seed=4)[0]
+    for wrong in ({"shares": [1.5]}, {"density": -1.0}, {"shares": [0.5], "share": 0.9}):
+        with pytest.raises(tress.TressError):
+            tress.insert_switchbacks(helices, **wrong)
+    with pytest.raises(tress.TressError):
+        tress.insert_switchbacks(helices, [0], shares=[0.5])
+    for wrong in ({}, {"shares": [0.5], "density": 1.0}, {"shares": [0.5], "poisson": 0.4}):
+        with pytest.raises(TypeError):
+            tress.insert_switchbacks(helices, **wrong)
+
+
+def test_a_switchback_in_equilibrium():
+    curvatures = tress.switchback(0.5, [-80.0, 0.0, 80.0])
+    # Twist k0 is odd about the middle, bending k1 even.
+    assert curvatures[0, 0] == pytest.approx(-curvatures[2, 0], abs=1e-9)
+    assert curvatures[1, 0] == pytest.approx(0.0, abs=1e-9)
+    assert curvatures[1, 1] == pytest.approx(0.4976314802, abs=1e-8)
+    with pytest.raises(tress.TressError):
+        tress.switchback(1.5, [0.0])
+
+
+def test_helicoids_are_fitted_sampled_and_filled_in():
+    arc = np.linspace(0, 2, 40)
+    strand = np.stack([np.sin(arc), 1 - np.cos(arc), 0.1 * arc], axis=1)
+    guides = tress.Groom(
+        np.stack([strand, strand * 1.2 + [3, 0, 0], strand + [0, 0, 3]]), unit="cm"
+    )
+    hairs, report = tress.fit_helicoids(guides, pieces={"Equal": 2}, roll="Steady")
+    assert len(hairs) == 3 and report["pieces"] == [2, 2, 2] and hairs.unit == 0.01
+    assert max(report["rms"]) < 0.02
+    assert hairs.parameters.shape == (6, 4) and hairs.lengths.shape == (6,)
+    assert hairs.root_frames.shape == (3, 3, 3) and hairs.offsets.tolist() == [0, 2, 4, 6]
+    back = tress.sample_helicoids(hairs, counts=guides.counts)
+    assert np.abs(back.positions - guides.positions).max() < 0.1
+    roots = np.array([[1.0, 0, 0], [0, 0, 1.0]])
+    filled, replaced = tress.fill(hairs, roots, exponent=2.0)
+    assert len(filled) == 2 and replaced.tolist() == []
+    new = tress.sample_helicoids(filled, points=20)
+    assert np.allclose([hair[0] for hair in new], roots)
+    for call in (
+        lambda: tress.fit_helicoids(guides, tolerance=-1.0),
+        lambda: tress.sample_helicoids(hairs, points=1),
+        lambda: tress.fill(hairs, [[np.nan, 0, 0]]),
+        lambda: tress.fill(hairs, roots, exponent=-1.0),
+    ):
+        with pytest.raises(tress.TressError):
+            call()
+    for call in (
+        lambda: tress.sample_helicoids(hairs),
+        lambda: tress.fit_helicoids(guides, tolerence=1.0),
+        lambda: tress.fill(hairs, roots, normals=roots),
+    ):
+        with pytest.raises(TypeError):
+            call()
+
+
+def test_a_procedural_groom_is_built_the_same_every_time(tmp_path):
+    guides = np.zeros((2, 20, 3))
+    guides[:, :, 1] = -np.linspace(0, 3, 20)
+    guides[1, :, 0] = 1.0
+    roots = np.random.default_rng(0).random((50, 3)) * [1, 0, 1]
+    operators = [{"Clump": {"profile": 1.5}}, {"Frizz": {"frequency": 0.5, "amplitude": 0.1}}]
+    groom = tress.ProceduralGroom(guides, roots, operators, seed=3)
+    strands = groom.build()
+    assert len(strands) == 50 and strands == groom.build()
+    assert [next(iter(operator)) for operator in groom.operators] == ["Clump", "Frizz"]
+    path = tmp_path / "groom.ron"
+    groom.write(path)
+    again = tress.ProceduralGroom.read(path)
+    assert again.build() == strands and again.seed == 3
+    plain = groom.with_operators([]).build()
+    assert not np.allclose(plain.positions, strands.positions)
+    assert np.array_equal(groom.guides.positions.reshape(2, 20, 3), guides)
+    by_text = tress.ProceduralGroom(guides, roots, "[Clump(profile: 1.5)]", seed=3)
+    assert "1.5" in repr(by_text.operators)
+    for wrong in ([{"Clmp": {}}], [{"Clump": {"profil": 1}}], "[Clump(]"):
+        with pytest.raises(tress.TressError):
+            tress.ProceduralGroom(guides, roots, wrong)
+    with pytest.raises(tress.TressError):
+        tress.ProceduralGroom(np.zeros((0, 20, 3)), roots)
+    with pytest.raises((tress.TressError, OSError)):
+        tress.ProceduralGroom.read(tmp_path / "none.ron")
+
+
+def test_grooms_are_compared(coils):
+    same = tress.compare(coils, coils)
+    assert same["nearest"]["greatest"] == 0.0 and same["by_index"]["frechet"]["rms"] == 0.0
+    moved = tress.compare(coils, coils.with_positions(coils.positions + [0, 0.01, 0]))
+    assert moved["by_index"]["distances"]["rms"] == pytest.approx(0.01, rel=1e-6)
+    assert moved["distributions"]["coil_radius"] == pytest.approx(0.0, abs=1e-9)
+    assert tress.compare(coils, tress.Groom([]))["nearest"] is None
+
+
+@pytest.mark.parametrize("extension", ["abc", "usdc"])
+def test_frames_go_out_and_come_in(coils, tmp_path, extension):
+    path = tmp_path / f"wind.{extension}"
+    frames = [coils.with_positions(coils.positions + [0, 0, step]) for step in range(3)]
+    tress.write_animation(path, frames, start=10.0, rate=25.0)
+    animation = tress.Animation(path)
+    assert (len(animation), animation.start, animation.rate) == (3, 10.0, 25.0)
+    for found, groom in zip(animation, frames, strict=True):
+        assert np.allclose(found.positions, groom.positions, atol=1e-5)
+    assert np.allclose(animation[-1].positions, frames[2].positions, atol=1e-5)
+    with pytest.raises(IndexError):
+        animation[3]
+    with pytest.raises(tress.TressError, match="no frame"):
+        tress.write_animation(path, [])
+    with pytest.raises(tress.TressError):
+        tress.write_animation(tmp_path / "wind.obj", frames)
+    with pytest.raises(FileNotFoundError):
+        tress.Animation(tmp_path / "none.abc")
+
+
+def test_unreal_gets_no_more_points_than_it_takes(tmp_path):
+    strand = coil_points(turns=40, per_turn=20)
+    groom = tress.Groom(strand, counts=[len(strand)], unit="cm", up="y")
+    report = tress.write_unreal(tmp_path / "coil.abc", groom)
+    assert report["resampled"] == 1 and report["most_points"] == 801
+    uniform = tress.write_unreal(tmp_path / "even.abc", groom, placement="uniform")
+    assert report["errors"][0] < uniform["errors"][0] < 0.5
+    assert tress.read(tmp_path / "coil.abc").counts.tolist() == [255]
+    with pytest.raises(tress.TressError):
+        tress.write_unreal(tmp_path / "coil.abc", groom, placement="sparse")
