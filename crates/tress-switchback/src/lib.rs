@@ -8,6 +8,7 @@
 //! |---|---|
 //! | [`Material`], [`Coil`] | the rod, and its coils under tension in closed form |
 //! | [`Switchback`] | the equilibrium between both hands, to 1e-8 |
+//! | [`DoubleSwitchback`] | two at once, for rods that rest as a circle or as a helix |
 //! | [`Ritz`] | the published approximation of eleven parameters |
 //! | [`Profile`], [`arcs`], [`strand`] | curvatures along the strand, and helix arcs made of them |
 //! | [`insert_at`], [`insert`] | switchbacks put into strands, and into the wisps of a groom |
@@ -32,6 +33,7 @@
 //! seed that the caller gives.
 
 mod coil;
+mod double;
 mod exact;
 mod insert;
 mod material;
@@ -43,6 +45,7 @@ mod tail;
 mod taylor;
 
 pub use coil::{Coil, CoilError};
+pub use double::DoubleSwitchback;
 pub use exact::{Switchback, SwitchbackError};
 pub use insert::{
     InsertError, InsertGroomError, InsertOptions, InsertReport, Placed, Placing, insert, insert_at,
