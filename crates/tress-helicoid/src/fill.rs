@@ -21,6 +21,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use tress_geometry::{Column, Frame, Strands};
 
+use crate::fit::hold;
 use crate::{HelicoidGroom, PHelicoid, Piece, TraceError, Tracing, positive_tangential};
 use mix::Guide;
 pub use rotation::mean_rotation;
@@ -47,11 +48,17 @@ pub struct FillOptions {
     pub exponent: f64,
     /// How many of the nearest guides count; 0 for all, as published. Default 8.
     pub neighbours: usize,
+    /// Points at which each hair is held to the mean of the guides' points; 0, as published and the
+    /// default, leaves it where its parameters lead. What is mixed of parameters bends right and
+    /// ends anywhere, for every error of direction grows along the hair; the mean of points ends
+    /// right and is too straight. A hair that is held keeps its length, so what the mean of points
+    /// has lost in length it has to bend.
+    pub hold: usize,
 }
 
 impl Default for FillOptions {
     fn default() -> Self {
-        Self { mixing: Mixing::default(), exponent: 3.0, neighbours: 8 }
+        Self { mixing: Mixing::default(), exponent: 3.0, neighbours: 8, hold: 0 }
     }
 }
 
@@ -163,7 +170,7 @@ pub fn fill(
         return Err(FillError::Exponent(options.exponent));
     }
     check_roots(guides, roots)?;
-    let usable = usable_guides(guides, roots, options.mixing)?;
+    let usable = usable_guides(guides, roots, options)?;
     let positions = roots.positions();
     let at_guides: Vec<DVec3> = usable.iter().map(|guide| guide.root).collect();
     let hairs: Vec<Mixed> = positions
@@ -176,7 +183,7 @@ pub fn fill(
                 Roots::Points(_) => None,
                 Roots::Surface { normals, .. } => Some(normals[i]),
             };
-            Mixed::new(position, normal, &usable, scratch, options.mixing)
+            Mixed::new(position, normal, &usable, scratch, options)
         })
         .collect();
     gather(guides, hairs)
@@ -197,11 +204,19 @@ impl Mixed {
         normal: Option<DVec3>,
         guides: &[Guide<'_>],
         weights: &[(usize, f64)],
-        mixing: Mixing,
+        options: &FillOptions,
     ) -> Self {
         let nearest = &guides[weights[0].0];
-        let (rotation, mut pieces) = mix::mix(guides, weights, normal, mixing);
-        let root = Frame { position, axes: glam::DMat3::from_quat(rotation) };
+        let (rotation, mut pieces) = mix::mix(guides, weights, normal, options.mixing);
+        let mut root = Frame { position, axes: glam::DMat3::from_quat(rotation) };
+        if 0 < options.hold {
+            let points = mix::points(guides, weights, normal, options.hold);
+            let hair = PHelicoid { root, pieces: &pieces };
+            let held = hold(&hair, &points);
+            if let Some((turned, bent)) = held.filter(|(root, pieces)| is_clear(root, pieces)) {
+                (root, pieces) = (turned, bent);
+            }
+        }
         let replaced = !is_clear(&root, &pieces);
         if replaced {
             pieces = nearest.pieces.to_vec();
@@ -244,17 +259,20 @@ fn check_roots(guides: &HelicoidGroom, roots: Roots<'_>) -> Result<(), FillError
 fn usable_guides<'a>(
     guides: &HelicoidGroom,
     roots: Roots<'a>,
-    mixing: Mixing,
+    options: &FillOptions,
 ) -> Result<Vec<Guide<'a>>, FillError> {
     let mut usable = Vec::with_capacity(guides.len());
+    let mut line = vec![DVec3::ZERO; options.hold + 1];
     for (index, hair) in guides.iter().enumerate() {
         let length = hair.length();
         if hair.pieces.is_empty() || length <= 0.0 {
             continue;
         }
-        hair.tip(Tracing::default()).map_err(|source| FillError::Guide { guide: index, source })?;
+        hair.sample_evenly(Tracing::default(), &mut line)
+            .map_err(|source| FillError::Guide { guide: index, source })?;
+        let points = line[1..].iter().map(|point| point - hair.root.position).collect();
         let (mut root, mut pieces) = (hair.root, hair.pieces.to_vec());
-        if mixing == Mixing::Parameters {
+        if options.mixing == Mixing::Parameters {
             positive_tangential(&mut root, &mut pieces);
         }
         let normal = match roots {
@@ -262,7 +280,7 @@ fn usable_guides<'a>(
             Roots::Surface { at_guides, .. } => Some(&at_guides[index]),
         };
         let rotation = DQuat::from_mat3(&root.axes).normalize();
-        usable.push(Guide { index, root: root.position, rotation, normal, pieces, length });
+        usable.push(Guide { index, root: root.position, rotation, normal, pieces, length, points });
     }
     if usable.is_empty() { Err(FillError::NoGuide) } else { Ok(usable) }
 }

@@ -21,7 +21,8 @@ use tress_geometry::{Frame, Groom, Strands};
 pub use options::{FitOptions, FitOptionsError, Method, Pieces, Roll};
 
 use crate::frechet::frechet;
-use crate::{HelicoidGroom, Piece};
+use crate::{Helicoid, HelicoidGroom, PHelicoid, Piece, Tracing};
+use chain::{Chain, Points};
 use target::Target;
 
 /// A fitted strand and how near it is.
@@ -83,16 +84,24 @@ pub struct FitReport {
 ///
 /// If the polyline has a [`Defect`].
 pub fn fit_strand(points: &[DVec3], options: &FitOptions) -> Result<StrandFit, Defect> {
-    let target = Target::new(points)?;
-    let chain = split::fit(&target, options).ok_or(Defect::NotFinite)?;
-    let behind = split::behind_root(&target);
+    let fewest = match options.pieces {
+        Pieces::UpTo(_) => 0,
+        Pieces::Equal(n) => n * SEGMENTS,
+    };
+    let target = Target::new(points, fewest)?;
+    let chain = traceable(&target, options).ok_or(Defect::NotFinite)?;
+    let behind = Points {
+        positions: &target.polyline[1..],
+        arc_lengths: &target.at_polyline[1..],
+        end: None,
+    };
     let mut traced = vec![DVec3::ZERO];
     chain.trace(behind, &mut traced).ok_or(Defect::NotFinite)?;
     let unit = target.length;
     let square: f64 =
-        target.points.iter().zip(&traced).map(|(p, q)| p.distance_squared(*q)).sum();
+        target.polyline.iter().zip(&traced).map(|(p, q)| p.distance_squared(*q)).sum();
     let pieces = chain.pieces.iter().map(|piece| {
-        let k = crate::Helicoid {
+        let k = Helicoid {
             kt: piece.k.kt / unit,
             kn: piece.k.kn / unit,
             kb: piece.k.kb / unit,
@@ -103,9 +112,56 @@ pub fn fit_strand(points: &[DVec3], options: &FitOptions) -> Result<StrandFit, D
     Ok(StrandFit {
         root: Frame { position: target.origin, axes: chain.root.axes },
         pieces: pieces.collect(),
-        frechet: unit * frechet(&target.points, &traced),
-        rms: unit * (square / target.points.len() as f64).sqrt(),
+        frechet: unit * frechet(&target.polyline, &traced),
+        rms: unit * (square / target.polyline.len() as f64).sqrt(),
         length: unit,
+    })
+}
+
+/// Segments to a piece at least where pieces are given: fewer leave its parameters open.
+const SEGMENTS: usize = 4;
+
+/// Effort of a hold: what further steps change is less than the mean of guides is good for.
+const HOLD: levenberg::Effort = levenberg::Effort { steps: 8, gain: 1e-2 };
+
+/// Bends a hair so that it passes points, given from its root at equal parts of its length, as well
+/// as it can with the length it has.
+pub(crate) fn hold(hair: &PHelicoid<'_>, points: &[DVec3]) -> Option<(Frame, Vec<Piece>)> {
+    let length = hair.length();
+    let scaled = |piece: &Piece, by: f64| {
+        let Helicoid { kt, kn, kb, alpha } = piece.k;
+        Piece { k: Helicoid::new(kt * by, kn * by, kb * by, alpha), length: piece.length / by }
+    };
+    let mut breaks = vec![0.0];
+    breaks.extend(hair.pieces.iter().scan(0.0, |s, piece| {
+        *s += piece.length / length;
+        Some(*s)
+    }));
+    let root = Frame { position: DVec3::ZERO, ..hair.root };
+    let pieces = hair.pieces.iter().map(|piece| scaled(piece, length)).collect();
+    let mut chain = Chain { root, pieces, breaks };
+    let positions: Vec<DVec3> = points.iter().map(|p| p / length).collect();
+    let parts = 1..=points.len();
+    let arc_lengths: Vec<f64> = parts.map(|i| i as f64 / points.len() as f64).collect();
+    let points = Points { positions: &positions, arc_lengths: &arc_lengths, end: None };
+    let prior = levenberg::Prior { curvature: 1e-2, stretch: 1.0, free_root: true, free_roll: false };
+    if !levenberg::refine(&mut chain, points, prior, HOLD) {
+        return None;
+    }
+    let root = Frame { position: hair.root.position, ..chain.root };
+    Some((root, chain.pieces.iter().map(|piece| scaled(piece, 1.0 / length)).collect()))
+}
+
+/// How much more parameters cost where a fit came out singular between its points, time after time.
+const DEARER: [f64; 3] = [1.0, 30.0, 1000.0];
+
+/// The fit with the least cost of parameters that can be traced.
+fn traceable(target: &Target, options: &FitOptions) -> Option<Chain> {
+    DEARER.into_iter().find_map(|times| {
+        let regularization = times * options.regularization.max(1e-6);
+        let chain = split::fit(target, &FitOptions { regularization, ..*options })?;
+        let hair = PHelicoid { root: chain.root, pieces: &chain.pieces };
+        hair.tip(Tracing::Controlled(1e-5)).is_ok().then_some(chain)
     })
 }
 

@@ -17,15 +17,22 @@ pub(super) struct Guide<'a> {
     pub(super) normal: Option<&'a DVec3>,
     pub(super) pieces: Vec<Piece>,
     pub(super) length: f64,
+    /// Where it goes from its root, at the places where hairs are held.
+    pub(super) points: Vec<DVec3>,
 }
 
 impl Guide<'_> {
+    /// The turn that carries it to where the surface has another normal.
+    fn turn(&self, normal: Option<DVec3>) -> DQuat {
+        match (self.normal, normal) {
+            (Some(&from), Some(to)) => DQuat::from_rotation_arc(from, to),
+            _ => DQuat::IDENTITY,
+        }
+    }
+
     /// The frame, carried to where the surface has another normal.
     fn carried(&self, normal: Option<DVec3>) -> DQuat {
-        match (self.normal, normal) {
-            (Some(&from), Some(to)) => DQuat::from_rotation_arc(from, to) * self.rotation,
-            _ => self.rotation,
-        }
+        self.turn(normal) * self.rotation
     }
 
     /// Piece `j`, if it has one.
@@ -62,6 +69,23 @@ pub(super) fn mix(
             (rotation, pieces)
         }
     }
+}
+
+/// The mean of the guides' points, from the root.
+pub(super) fn points(
+    guides: &[Guide<'_>],
+    weights: &[(usize, f64)],
+    normal: Option<DVec3>,
+    count: usize,
+) -> Vec<DVec3> {
+    let mut mean = vec![DVec3::ZERO; count];
+    for &(i, w) in weights {
+        let turn = guides[i].turn(normal);
+        for (mean, &point) in mean.iter_mut().zip(&guides[i].points) {
+            *mean += w * (turn * point);
+        }
+    }
+    mean
 }
 
 /// The mean of `(kT, kN, kB, alpha)` over the guides that have a piece `j`.

@@ -24,6 +24,13 @@ pub(super) const OF_ROOT: usize = 3;
 /// `|kT|` is at least this part of `|c|`, so that `alpha = c / kT` stays a number.
 const LEAST_KT: f64 = 1e-3;
 
+/// Bounds of `kN` over the piece: below -1 the line would run into its singular line, and from 4 on
+/// it is straight but for its first fifth.
+const KN: (f64, f64) = (-0.8, 4.0);
+
+/// Bound of `|kB|` over the piece.
+const KB: f64 = 3.0;
+
 /// Pieces under fit, in the normal form of the target.
 #[derive(Clone, Debug)]
 pub(super) struct Chain {
@@ -220,7 +227,9 @@ impl Chain {
             let k = piece.k;
             piece.length *= stretch.clamp(-0.5, 0.5).exp();
             let scale = 1.0 / piece.length;
-            piece.k = bent(k.kt + a, k.alpha * k.kt + c, k.kn + kn, k.kb + kb, scale);
+            let kn = (k.kn + kn).clamp(KN.0 * scale, KN.1 * scale);
+            let kb = (k.kb + kb).clamp(-KB * scale, KB * scale);
+            piece.k = bent(k.kt + a, k.alpha * k.kt + c, kn, kb, scale);
         }
         moved
     }

@@ -19,6 +19,9 @@ const TURN: f64 = 0.35;
 /// Steps between two points at most, so that no parameters make a fit hang.
 const MOST_STEPS: usize = 24;
 
+/// Clearance of a fitted line; nearer to its singular line steps of this length see nothing of it.
+const CLEAR: f64 = 0.05;
+
 /// A place on a line of flow, with derivatives by the first `N` of `kT, kN, kB, alpha`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Along<const N: usize> {
@@ -86,6 +89,9 @@ impl<const N: usize> Along<N> {
         let direction = DVec3::new(run * cosine, run * sine, rise);
         let e_n = DVec3::new(-sine, cosine, 0.0);
         let e_b = DVec3::new(-rise * cosine, -rise * sine, run);
+        if k.clearance(self.position) < CLEAR {
+            return None;
+        }
         let gradient = k.gradient(self.position)?;
         let rate = gradient.dot(direction);
         let mut by_k = [DVec3::ZERO; N];

@@ -33,10 +33,21 @@ const END: f64 = 0.2;
 
 /// What parameters cost in parts of a strand, over what they cost in the end: a part has few points
 /// and need not be followed closer than the tolerance.
-const HELD: f64 = 10.0;
+pub(super) const HELD: f64 = 10.0;
+
+/// So many segments tell a helicoid's parameters without a prior.
+const MANY: usize = 10;
 
 /// Elevations that a fit with a free root is begun with.
 const STARTS: [f64; 3] = [0.0, 1.0, -1.0];
+
+/// Further ones where points seem to come from one helicoid.
+const OTHERS: [f64; 6] = [0.0, 0.6, -0.6, 1.6, -1.6, 3.0];
+
+/// Mean squared distances, over the squared length of the strand: above the first a strand is no
+/// single helicoid, below the second it is.
+const NEARLY: f64 = 1e-6;
+const EXACTLY: f64 = 1e-11;
 
 const DRAFT: Effort = Effort { steps: 8, gain: 1e-2 };
 const LAST: Effort = Effort { steps: 30, gain: 1e-4 };
@@ -141,6 +152,10 @@ impl<'a> Fragment<'a> {
             if !refine(&mut chain, part.points_and_end(), prior, effort) {
                 return (part.chain(Helicoid::default()), part.last);
             }
+            if whole && is_strand && MANY <= self.last {
+                let free = Prior { curvature: 0.01 * curvature, ..prior };
+                chain = part.exact(chain, free);
+            }
             if whole || !part.is_near(&chain, 2.0 * options.tolerance) {
                 return (chain, part.last);
             }
@@ -148,6 +163,29 @@ impl<'a> Fragment<'a> {
             part = Self { base: chain.root, ..self.up_to(turning) };
             chain = part.chain(chain.pieces[0].k);
         }
+    }
+
+    /// Follows points that seem to come from one helicoid to where they came from: the frame's turn
+    /// about its tangent and `alpha` can stand for each other nearly, and only the right pair
+    /// passes the points exactly.
+    fn exact(&self, chain: Chain, prior: Prior) -> Chain {
+        let points = self.points();
+        let each = |chain: &Chain| chain.cost(points) / points.positions.len() as f64;
+        let mut best = chain;
+        if refine(&mut best, points, prior, LAST) && NEARLY < each(&best) {
+            return best;
+        }
+        for alpha in OTHERS {
+            if each(&best) < EXACTLY {
+                break;
+            }
+            let base = best.root;
+            let Some(mut other) = (Self { base, ..*self }).turned(&best.pieces[0].k, alpha) else { continue };
+            if refine(&mut other, points, prior, LAST) && other.cost(points) < best.cost(points) {
+                best = other;
+            }
+        }
+        best
     }
 
     /// The fragment as far as it turns by so many radians.
@@ -165,13 +203,7 @@ impl<'a> Fragment<'a> {
         }
         let mut best: Option<(f64, Chain)> = None;
         for alpha in STARTS {
-            let (sine, cosine) = (k.alpha - alpha).atan2(1.0 + k.alpha * alpha).sin_cos();
-            let [t, n, b] = [self.base.axes.x_axis, self.base.axes.y_axis, self.base.axes.z_axis];
-            let axes = DMat3::from_cols(t, n * cosine + b * sine, b * cosine - n * sine);
-            let base = Frame { axes, ..self.base };
-            let bend = k.kt.hypot(k.alpha * k.kt).copysign(k.kt);
-            let kt = bend / 1.0_f64.hypot(alpha);
-            let mut chain = Self { base, ..*self }.chain(Helicoid::new(kt, 0.0, 0.0, alpha));
+            let Some(mut chain) = self.turned(&k, alpha) else { continue };
             if !refine(&mut chain, self.points_and_end(), prior, DRAFT) {
                 continue;
             }
@@ -181,6 +213,18 @@ impl<'a> Fragment<'a> {
             }
         }
         best.map(|(_, chain)| chain)
+    }
+
+    /// A beginning that bends as `k` does with another `alpha`, in a frame turned to let it.
+    fn turned(&self, k: &Helicoid, alpha: f64) -> Option<Chain> {
+        let (sine, cosine) = (k.alpha - alpha).atan2(1.0 + k.alpha * alpha).sin_cos();
+        let [t, n, b] = [self.base.axes.x_axis, self.base.axes.y_axis, self.base.axes.z_axis];
+        let axes = DMat3::from_cols(t, n * cosine + b * sine, b * cosine - n * sine);
+        let bend = k.kt.hypot(k.alpha * k.kt).copysign(k.kt);
+        let kt = bend / 1.0_f64.hypot(alpha);
+        let base = Frame { axes, ..self.base };
+        let chain = Self { base, ..*self }.chain(Helicoid::new(kt, k.kn, 0.0, alpha));
+        chain.pieces[0].k.is_finite().then_some(chain)
     }
 
     /// The chain at the fragment's points, its beginning included.

@@ -98,23 +98,33 @@ fn penalty(chain: &Chain, points: Points<'_>, prior: Prior, rest: &[f64]) -> (f6
 impl Normal {
     fn of(chain: &Chain, points: Points<'_>, prior: Prior, rest: &[f64]) -> Option<Self> {
         let n = chain.unknowns(prior.free_root);
-        let mut matrix = DMatrix::zeros(n, n);
+        // Row by row; only the lower triangle is filled.
+        let mut matrix = vec![0.0; n * n];
         let mut gradient = DVector::zeros(n);
         let mut cost = 0.0;
+        let [mut xs, mut ys, mut zs] = [const { Vec::new() }; 3];
         chain.linearize(points, prior.free_root, |residual: DVec3, by| {
             cost += residual.length_squared();
+            xs.clear();
+            ys.clear();
+            zs.clear();
+            for a in by {
+                xs.push(a.x);
+                ys.push(a.y);
+                zs.push(a.z);
+            }
             for (j, a) in by.iter().enumerate() {
                 gradient[j] += a.dot(residual);
-                for (i, b) in by[..=j].iter().enumerate() {
-                    // The lower triangle of the columns seen so far.
-                    matrix[(j, i)] += a.dot(*b);
+                let row = &mut matrix[j * n..j * n + j + 1];
+                for (((entry, x), y), z) in row.iter_mut().zip(&xs).zip(&ys).zip(&zs) {
+                    *entry += a.x * x + a.y * y + a.z * z;
                 }
             }
         })?;
         let (more, weights) = penalty(chain, points, prior, rest);
         let first = if prior.free_root { OF_ROOT } else { 0 };
         if prior.free_root && !prior.free_roll {
-            matrix[(0, 0)] += HELD;
+            matrix[0] += HELD;
         }
         for (i, [w, v]) in weights.iter().enumerate() {
             let piece = chain.pieces[i];
@@ -129,10 +139,11 @@ impl Normal {
                     _ => *w,
                 };
                 let at = first + i * OF_PIECE + j;
-                matrix[(at, at)] += weight;
+                matrix[at * n + at] += weight;
                 gradient[at] += weight * value;
             }
         }
+        let matrix = DMatrix::from_row_slice(n, n, &matrix);
         Some(Self { matrix, gradient, cost: cost + more })
     }
 

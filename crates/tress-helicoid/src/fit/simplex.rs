@@ -10,11 +10,11 @@ use super::fragment::Fragment;
 use crate::Helicoid;
 use crate::frechet::frechet;
 
-/// Steps at most; from about 120 on the distance no longer changes by a percent.
-const STEPS: u64 = 160;
+/// Steps at most; from about 100 on the distance no longer changes by a percent.
+const STEPS: u64 = 120;
 
 /// The simplex is small enough when its costs differ by this, in lengths of the piece.
-const SPREAD: f64 = 1e-6;
+const SPREAD: f64 = 1e-4;
 
 /// Where the field is singular on the path.
 const REFUSED: f64 = 1e3;

@@ -7,7 +7,7 @@
 //! piece begins in the frame where that fit ends, so the chain is C1.
 
 use super::chain::{Chain, Points};
-use super::fragment::Fragment;
+use super::fragment::{Fragment, HELD};
 use super::levenberg::{Effort, Prior, refine};
 use super::options::{FitOptions, Method, Pieces, Roll};
 use super::target::{Target, curvature_profile};
@@ -19,7 +19,7 @@ const FEWEST_SEGMENTS: usize = 3;
 /// No points at all.
 const NOWHERE: Points<'_> = Points { positions: &[], arc_lengths: &[], end: None };
 
-const TOGETHER: Effort = Effort { steps: 20, gain: 1e-3 };
+const TOGETHER: Effort = Effort { steps: 12, gain: 1e-2 };
 
 /// Fits a chain to the whole target.
 pub(super) fn fit(target: &Target, options: &FitOptions) -> Option<Chain> {
@@ -29,7 +29,8 @@ pub(super) fn fit(target: &Target, options: &FitOptions) -> Option<Chain> {
     };
     if options.method == Method::Newton && 1 < chain.pieces.len() {
         let free_roll = options.roll == Roll::Bend;
-        let prior = Prior { curvature: options.regularization, stretch: 0.01, free_root: true, free_roll };
+        let curvature = HELD * options.regularization;
+        let prior = Prior { curvature, stretch: 0.01, free_root: true, free_roll };
         let points = behind_root(target);
         let before = chain.clone();
         if !refine(&mut chain, points, prior, TOGETHER) {
@@ -158,7 +159,7 @@ fn equal(target: &Target, n: usize, options: &FitOptions) -> Option<Chain> {
                 end: (j + 1 < n).then(|| (target.tangents[last], 0.2 * (ends - begins) * (count as f64).sqrt())),
             };
             let prior = Prior {
-                curvature: 10.0 * options.regularization,
+                curvature: HELD * options.regularization,
                 stretch: 0.01,
                 free_root: j == 0,
                 free_roll: options.roll == Roll::Bend,

@@ -10,7 +10,11 @@ use super::options::Roll;
 /// A polyline with its root at the origin and its smooth curve of length 1.
 #[derive(Clone, Debug)]
 pub(super) struct Target {
-    /// The points, repeated ones left out.
+    /// The polyline's points, repeated ones left out.
+    pub(super) polyline: Vec<DVec3>,
+    /// Arc length of the smooth curve at each, 0 to 1.
+    pub(super) at_polyline: Vec<f64>,
+    /// What the fit is to pass: the same points, or more of the smooth curve.
     pub(super) points: Vec<DVec3>,
     /// Arc length of the smooth curve at each, 0 to 1.
     pub(super) arc_lengths: Vec<f64>,
@@ -29,7 +33,9 @@ const SAME_PLACE: f64 = 1e-12;
 const FIRST_BEND: f64 = 0.5;
 
 impl Target {
-    pub(super) fn new(polyline: &[DVec3]) -> Result<Self, Defect> {
+    /// `fewest` is how many segments there are to be at least to fit to: where the polyline has
+    /// fewer, its smooth curve fills in.
+    pub(super) fn new(polyline: &[DVec3], fewest: usize) -> Result<Self, Defect> {
         if let Some(defect) = defect(polyline) {
             return Err(defect);
         }
@@ -47,13 +53,25 @@ impl Target {
         }
         let spline = Spline::through(&points, TangentRule::Helix);
         let length = spline.length();
-        Ok(Self {
-            arc_lengths: spline.arc_lengths().iter().map(|s| s / length).collect(),
+        let polyline: Vec<DVec3> = points.iter().map(|p| p / length).collect();
+        let at_polyline: Vec<f64> = spline.arc_lengths().iter().map(|s| s / length).collect();
+        let mut target = Self {
+            arc_lengths: at_polyline.clone(),
             tangents: spline.tangents().collect(),
-            points: points.iter().map(|p| p / length).collect(),
+            points: polyline.clone(),
+            polyline,
+            at_polyline,
             origin,
             length: length * size,
-        })
+        };
+        if target.last() < fewest {
+            target.arc_lengths = (0..=fewest).map(|i| i as f64 / fewest as f64).collect();
+            let at = |s: &f64| spline.at(s * length);
+            let (points, tangents): (Vec<_>, Vec<_>) = target.arc_lengths.iter().map(at).unzip();
+            target.points = points.into_iter().map(|p| p / length).collect();
+            target.tangents = tangents;
+        }
+        Ok(target)
     }
 
     /// The last point's index.

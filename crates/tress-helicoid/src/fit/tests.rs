@@ -1,5 +1,4 @@
 use super::*;
-use crate::{Helicoid, PHelicoid, Tracing};
 
 /// Traced pieces in a root that is not the identity, so many points.
 fn traced(pieces: &[Piece], n: usize) -> Vec<DVec3> {
