@@ -16,8 +16,6 @@
 //! As `psi` falls from `pi/2` to `-pi/2` the direction of `(X, Y)` turns monotonically from 0 to
 //! `-pi`, so for `y <= 0` the root is unique; for `y > 0` the mirror image is solved.
 
-use std::f64::consts::{FRAC_PI_2, PI};
-
 use glam::DVec3;
 
 /// A helix arc in the world: its Darboux vector and its length.
@@ -68,12 +66,11 @@ impl HelixArc {
         let (x, y) = (chord.dot(m), chord.dot(b));
         let reach = x.hypot(y);
         let tangents = HalfAngle { sine: 0.5 * double_sine, cosine: 0.5 * double_cosine };
-        let psi = tangents.axis_angle(x / reach, -y.abs() / reach)?;
-        let shape = tangents.shape(psi);
+        let shape = tangents.shape(x / reach, -y.abs() / reach)?;
         let omega = shape.x.hypot(shape.y) / reach;
-        let (sine, cosine) = psi.sin_cos();
-        let cosine = if 0.0 < y { -cosine } else { cosine };
-        let arc = Self { darboux: omega * (cosine * m + sine * b), length: shape.theta / omega };
+        let cosine = if 0.0 < y { -shape.cosine } else { shape.cosine };
+        let arc =
+            Self { darboux: omega * (cosine * m + shape.sine * b), length: shape.theta / omega };
         (arc.darboux.is_finite() && arc.length.is_finite()).then_some(arc)
     }
 
@@ -96,64 +93,77 @@ struct HalfAngle {
     cosine: f64,
 }
 
-/// `theta`, `X` and `Y` of an arc of unit turning rate.
+/// `theta`, `X` and `Y` of an arc of unit turning rate, and sine and cosine of its `psi`.
 struct Shape {
     theta: f64,
     x: f64,
     y: f64,
+    sine: f64,
+    cosine: f64,
 }
 
 impl HalfAngle {
-    fn shape(&self, psi: f64) -> Shape {
-        let (s, c) = psi.sin_cos();
-        let theta = 2.0 * f64::atan2(self.sine, self.cosine * s);
+    fn shape_at(&self, sine: f64, cosine: f64) -> Shape {
+        let theta = 2.0 * f64::atan2(self.sine, self.cosine * sine);
         Shape {
             theta,
-            x: theta * self.cosine * c * c + 2.0 * self.sine * s,
-            y: c * (theta * self.cosine * s - 2.0 * self.sine),
+            x: theta * self.cosine * cosine * cosine + 2.0 * self.sine * sine,
+            y: cosine * (theta * self.cosine * sine - 2.0 * self.sine),
+            sine,
+            cosine,
         }
     }
 
-    /// The `psi` at which `(X, Y)` is along the unit vector `(x, y)`, `y <= 0`.
-    fn axis_angle(&self, x: f64, y: f64) -> Option<f64> {
+    /// The shape whose `(X, Y)` is along the unit vector `(x, y)`, `y <= 0`.
+    ///
+    /// Solved for `h = tan((pi/2 - psi)/2)`, from 0 to infinity: sine and cosine of `psi` are then
+    /// `(1 - h^2)/(1 + h^2)` and `2 h/(1 + h^2)`.
+    fn shape(&self, x: f64, y: f64) -> Option<Shape> {
         if !(x.is_finite() && y.is_finite()) {
             return None;
         }
         if y == 0.0 && 0.0 < x {
-            return Some(FRAC_PI_2);
+            return Some(self.shape_at(1.0, 0.0));
         }
-        // x Y - y X is positive at psi = pi/2 and negative at -pi/2.
-        let (mut low, mut high) = (-FRAC_PI_2, FRAC_PI_2);
-        let mut psi = self.small_angle_guess(x, y);
+        // x Y - y X is positive at h = 0 and negative far out.
+        let (mut low, mut high) = (0.0, FARTHEST);
+        let mut h = self.small_angle_guess(x, y);
         for _ in 0..MAX_STEPS {
-            let (value, slope) = self.miss(psi, x, y);
+            let (value, slope) = self.miss(h, x, y);
             if value < 0.0 {
-                low = psi;
+                high = h;
             } else {
-                high = psi;
+                low = h;
             }
-            let newton = psi - value / slope;
+            let newton = h - value / slope;
             let quadratic = low < newton && newton < high;
-            let next = if quadratic { newton } else { 0.5 * (low + high) };
-            let step = (next - psi).abs();
-            psi = next;
+            // Half way in the angle, not in its tangent.
+            let next =
+                if quadratic { newton } else { (0.5 * (f64::atan(low) + f64::atan(high))).tan() };
+            let step = (next - h).abs();
+            h = next;
             // What a Newton step leaves is of the order of its square.
-            if (quadratic && step <= 1e-9) || high - low <= 4.0 * f64::EPSILON {
+            if (quadratic && step <= 1e-8 * (1.0 + h * h))
+                || high - low <= 4.0 * f64::EPSILON * high
+            {
                 break;
             }
         }
-        Some(psi)
+        let (sine, cosine) = sine_and_cosine(h);
+        Some(self.shape_at(sine, cosine))
     }
 
     /// The root for a short arc, `cot psi = -3 y / (x tan^2 delta)`.
     fn small_angle_guess(&self, x: f64, y: f64) -> f64 {
-        let guess = f64::atan2(x * self.sine * self.sine, -3.0 * y * self.cosine * self.cosine);
-        guess.clamp(-0.5 * PI + 1e-3, FRAC_PI_2)
+        let (s, c) = (x * self.sine * self.sine, -3.0 * y * self.cosine * self.cosine);
+        // The tangent of half the angle whose cosine goes with s and whose sine goes with c.
+        let h = c / (s + s.hypot(c));
+        if h.is_finite() { h.clamp(0.0, FARTHEST) } else { 1.0 }
     }
 
-    /// `x Y - y X` and its derivative by `psi`.
-    fn miss(&self, psi: f64, x: f64, y: f64) -> (f64, f64) {
-        let (s, c) = psi.sin_cos();
+    /// `x Y - y X` and its derivative by `h`.
+    fn miss(&self, h: f64, x: f64, y: f64) -> (f64, f64) {
+        let (s, c) = sine_and_cosine(h);
         let (sine, cosine) = (self.sine, self.cosine);
         let b = cosine * s;
         let theta = 2.0 * f64::atan2(sine, b);
@@ -162,8 +172,18 @@ impl HalfAngle {
         let bracket_slope = theta_slope * b + theta * cosine * c;
         let value = x * c * bracket - y * (theta * cosine * c * c + 2.0 * sine * s);
         let x_slope = theta_slope * cosine * c * c - 2.0 * theta * b * c + 2.0 * sine * c;
-        (value, x * (c * bracket_slope - s * bracket) - y * x_slope)
+        let by_psi = x * (c * bracket_slope - s * bracket) - y * x_slope;
+        (value, by_psi * -2.0 / (1.0 + h * h))
     }
+}
+
+/// The greatest `h`: `psi` is `-pi/2` then but for rounding, and the arc a whole turn.
+const FARTHEST: f64 = 1e8;
+
+/// Sine and cosine of `psi`.
+fn sine_and_cosine(h: f64) -> (f64, f64) {
+    let square = h * h;
+    ((1.0 - square) / (1.0 + square), 2.0 * h / (1.0 + square))
 }
 
 #[cfg(test)]

@@ -27,15 +27,16 @@ pub(crate) fn per_segment(spline: &Spline, floating: Floating) -> StrandFit {
 /// cut where there are more elements than segments.
 pub(crate) fn through_points(spline: &Spline, n: usize) -> StrandFit {
     let fit = per_segment(spline, Floating::Tangents);
-    let elements = cut(&fit.elements, &parts(&fit.arc_lengths, n));
+    let elements = cut(&fit.elements, &parts(spline, n));
     StrandFit { elements, ..fit }
 }
 
-/// Arc lengths of `n + 1` joints: the ascending ones given, of which there are no more, and the
-/// rest between them where they are farthest apart.
-pub(crate) fn apportioned(arc_lengths: &[f64], n: usize) -> Vec<f64> {
+/// Arc lengths of `n + 1` joints: one at each of the curve's points, of which there are no more,
+/// and the rest between them where segments are long and turn.
+pub(crate) fn at_points_and_between(spline: &Spline, n: usize) -> Vec<f64> {
     let mut joints = Vec::with_capacity(n + 1);
-    for (ends, parts) in arc_lengths.windows(2).zip(parts(arc_lengths, n)) {
+    let arc_lengths = spline.arc_lengths();
+    for (ends, parts) in arc_lengths.windows(2).zip(parts(spline, n)) {
         let along = |i: usize| ends[0] + (ends[1] - ends[0]) * (i as f64 / parts as f64);
         joints.extend((0..parts).map(along));
     }
@@ -43,18 +44,21 @@ pub(crate) fn apportioned(arc_lengths: &[f64], n: usize) -> Vec<f64> {
     joints
 }
 
-/// Into how many parts each interval is cut so that there are `n`, the longest part as short as
-/// can be.
-fn parts(arc_lengths: &[f64], n: usize) -> Vec<usize> {
-    let lengths: Vec<f64> = arc_lengths.windows(2).map(|ends| ends[1] - ends[0]).collect();
-    let mut parts = vec![1; lengths.len()];
+/// Into how many parts each segment is cut so that there are `n`. A segment's share is its length
+/// times 1 and its turning; the greatest share of a part is as small as can be.
+fn parts(spline: &Spline, n: usize) -> Vec<usize> {
+    let tangents: Vec<DVec3> = spline.tangents().collect();
+    let turning = tangents.windows(2).map(|t| t[0].distance(t[1]));
+    let lengths = spline.arc_lengths().windows(2).map(|ends| ends[1] - ends[0]);
+    let shares: Vec<f64> = lengths.zip(turning).map(|(l, turn)| l * (1.0 + turn)).collect();
+    let mut parts = vec![1; shares.len()];
     // The bits of numbers that are not negative are in the order of the numbers.
-    let of = |i: usize, parts: usize| ((lengths[i] / parts as f64).to_bits(), Reverse(i));
-    let mut longest: BinaryHeap<_> = (0..lengths.len()).map(|i| of(i, 1)).collect();
-    for _ in lengths.len()..n {
-        let Some((_, Reverse(i))) = longest.pop() else { break };
+    let of = |i: usize, parts: usize| ((shares[i] / parts as f64).to_bits(), Reverse(i));
+    let mut greatest: BinaryHeap<_> = (0..shares.len()).map(|i| of(i, 1)).collect();
+    for _ in shares.len()..n {
+        let Some((_, Reverse(i))) = greatest.pop() else { break };
         parts[i] += 1;
-        longest.push(of(i, parts[i]));
+        greatest.push(of(i, parts[i]));
     }
     parts
 }

@@ -5,9 +5,10 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use tress_geometry::polyline::place;
-use tress_geometry::{Element, Frame};
+use tress_geometry::{Element, Frame, SuperHelix};
 
 use crate::direct::circle;
+use crate::measure::greatest_distance;
 use crate::{HelixArc, Spline, StrandFit, float_tangent};
 
 /// A chain whose joints need not be the ends of its elements.
@@ -77,18 +78,30 @@ impl Draft {
         drawn
     }
 
+    /// One element along this draft, which has a joint at each point, from one point to another.
+    pub(crate) fn piece(&self, begin: usize, end: usize) -> Self {
+        let elements = &self.elements[begin..end];
+        let length = elements.iter().map(|element| element.length).sum();
+        let start = self.joints[begin];
+        let element = Walk { draft: self, index: begin, begun: 0.0 }.mean(length, &start);
+        let mut s = 0.0;
+        let behind = elements.iter().map(|element| {
+            s += element.length;
+            (0, s)
+        });
+        let places = std::iter::once((0, 0.0)).chain(behind).collect();
+        Self { joints: vec![start, self.joints[end]], elements: vec![element], places }
+    }
+
     /// The whole length.
     pub(crate) fn length(&self) -> f64 {
         self.elements.iter().map(|element| element.length).sum()
     }
 
-    /// The greatest distance of a point from its place.
+    /// The greatest distance of a point from the chain, which is a true one.
     pub(crate) fn greatest_distance(&self, points: &[DVec3]) -> f64 {
-        let distance = |(point, &(i, s)): (&DVec3, &(usize, f64))| {
-            let s = s.min(self.elements[i].length);
-            self.elements[i].frame_at(&self.joints[i], s).position.distance(*point)
-        };
-        points.iter().zip(&self.places).map(distance).fold(0.0, f64::max)
+        let strand = SuperHelix { root: self.joints[0], elements: &self.elements };
+        greatest_distance(&strand, points, &self.arc_lengths())
     }
 
     /// The chain, without its joints.

@@ -63,10 +63,12 @@ mod refine;
 mod refined;
 mod report;
 mod sample;
+mod spacing;
 mod spectra;
 mod spline;
 mod strand;
 mod tangents;
+mod tolerance;
 
 pub use arc::HelixArc;
 pub use centerline::{

@@ -137,6 +137,16 @@ pub fn deviation(strand: &SuperHelix<'_>, points: &[DVec3], arc_lengths: &[f64])
     Sums::of(strand, points, arc_lengths).deviation()
 }
 
+/// The greatest distance of a point from a super-helix, on which they lie at these arc lengths.
+pub(crate) fn greatest_distance(
+    strand: &SuperHelix<'_>,
+    points: &[DVec3],
+    arc_lengths: &[f64],
+) -> f64 {
+    let mut curve = Projector::new(*strand);
+    points.iter().zip(arc_lengths).map(|(p, &s)| curve.nearest(*p, s)).fold(0.0, f64::max)
+}
+
 /// The coil radius in the mean over the length that bends; 0 where nothing does.
 pub(crate) fn coil_radius(elements: &[Element]) -> f64 {
     let bent = elements.iter().filter(|element| 0.0 < element.bending());

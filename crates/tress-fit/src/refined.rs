@@ -7,12 +7,12 @@
 //! out.
 
 use glam::DVec3;
-use tress_geometry::polyline::place;
 
-use crate::direct::apportioned;
 use crate::draft::Draft;
 use crate::measure::coil_radius;
 use crate::refine::{Hold, Problem, Refiner, is_near};
+use crate::spacing::Spacing;
+use crate::tolerance::Search;
 use crate::{Elements, Floating, Refine, Spline, StrandFit, Tolerance, direct};
 
 /// Up to this angle a segment, in radians, the smooth curve serves as the draft: its error there
@@ -53,7 +53,7 @@ pub(crate) fn fit(
 /// As many elements as segments, or more: a joint at each point, the rest between them.
 fn joined(spline: &Spline, n: usize, settings: &Refine, refiner: &mut Refiner) -> StrandFit {
     let points = spline.points();
-    let mut draft = Draft::on(spline, &apportioned(spline.arc_lengths(), n));
+    let mut draft = Draft::on(spline, &direct::at_points_and_between(spline, n));
     let cost = refiner.refine(Problem { points, hold: Hold::Joints, settings }, &mut draft);
     if is_astray(cost, &draft, points) {
         return nearest(draft, direct::through_points(spline, n), points);
@@ -124,15 +124,12 @@ fn evenly(length: f64, n: usize) -> Vec<f64> {
     (0..=n).map(|i| length * (i as f64 / n as f64)).collect()
 }
 
-/// Parts of the prior that one element a segment is tried with, where fewer do not keep to a
-/// tolerance: as points are missed the less the weaker it is.
-const SOFTER: [f64; 4] = [1.0, 1e-2, 1e-4, 1e-6];
+/// Elements a segment, and parts of the prior, that are tried where fewer than segments do not keep
+/// to a tolerance: points are missed the less the weaker the prior is.
+const FINER: [(usize, f64); 6] = [(1, 1.0), (1, 1e-2), (1, 1e-5), (2, 1.0), (2, 1e-4), (4, 1e-6)];
 
-/// The fewest elements found that keep all points within the tolerance; one a segment if there are
-/// no fewer, and nothing if those do not either.
-///
-/// Numbers are doubled until one serves and then halved in between. Elements are short where
-/// curvature changes, see [`Spacing`].
+/// The fewest elements found that keep all points within the tolerance; one a segment or more if
+/// there are no fewer, and nothing if those do not either.
 fn within(
     through: &Draft,
     spline: &Spline,
@@ -145,92 +142,14 @@ fn within(
         Tolerance::Length(length) => length,
         Tolerance::OfRadius(part) => part * coil_radius(&through.elements),
     };
-    let spacing = Spacing::of(through);
-    let mut attempt = |n: usize| {
-        let mut draft = through.redrawn(&spacing.joints(n));
-        let problem = Problem { points, hold: Hold::Nearest, settings };
-        let cost = refiner.refine(problem, &mut draft);
-        (cost.is_finite() && draft.greatest_distance(points) <= bound).then_some(draft)
-    };
-    let most = points.len() - 1;
-    let (mut too_few, mut enough) = (0, 1);
-    let mut found = attempt(enough);
-    while found.is_none() && 2 * enough < most {
-        too_few = enough;
-        enough *= 2;
-        found = attempt(enough);
-    }
-    let Some(mut best) = found else {
-        return SOFTER.iter().find_map(|part| {
-            let mut draft = through.clone();
+    let search = Search { through, points, bound, settings, refiner: &mut *refiner };
+    search.fewest().or_else(|| {
+        FINER.iter().find_map(|&(parts, part)| {
+            let n = parts * (points.len() - 1);
+            let mut draft = Draft::on(spline, &direct::at_points_and_between(spline, n));
             let settings = &Refine { prior: part * settings.prior, ..*settings };
             let cost = refiner.refine(Problem { points, hold: Hold::Joints, settings }, &mut draft);
             (cost.is_finite() && draft.greatest_distance(points) <= bound).then_some(draft)
-        });
-    };
-    while 1 < enough - too_few {
-        let middle = too_few.midpoint(enough);
-        match attempt(middle) {
-            Some(draft) => (enough, best) = (middle, draft),
-            None => too_few = middle,
-        }
-    }
-    Some(best)
-}
-
-/// Where elements of a strand should begin, for any number of them.
-///
-/// An element of length `h` on a curve whose curvature changes by `q'` a unit of length is off by
-/// `|q'| h^3`; elements are equally far off when the integral of `|q'|^(1/3)` is shared out evenly.
-struct Spacing {
-    /// Arc lengths, and that integral up to them.
-    arc_lengths: Vec<f64>,
-    shares: Vec<f64>,
-}
-
-/// Where curvature changes less than this part of its greatest change, elements grow no longer.
-const LEAST_SHARE: f64 = 0.1;
-
-impl Spacing {
-    fn of(draft: &Draft) -> Self {
-        let elements = &draft.elements;
-        let jumps: Vec<f64> = (1..elements.len())
-            .map(|j| {
-                let before = draft.joints[j - 1].axes * elements[j - 1].curvature;
-                let jump = draft.joints[j].axes * elements[j].curvature - before;
-                jump.length() / (0.5 * (elements[j - 1].length + elements[j].length))
-            })
-            .collect();
-        let densities = (0..elements.len()).map(|j| {
-            let near = jumps.get(j.saturating_sub(2)..(j + 2).min(jumps.len())).unwrap_or(&[]);
-            near.iter().copied().fold(0.0, f64::max).cbrt()
-        });
-        let densities: Vec<f64> = densities.collect();
-        let greatest = densities.iter().copied().fold(0.0, f64::max);
-        let floor = if 0.0 < greatest { LEAST_SHARE * greatest } else { 1.0 };
-        let (mut s, mut share) = (0.0, 0.0);
-        let (mut arc_lengths, mut shares) = (vec![0.0], vec![0.0]);
-        for (element, density) in elements.iter().zip(&densities) {
-            s += element.length;
-            share += element.length * density.max(floor);
-            arc_lengths.push(s);
-            shares.push(share);
-        }
-        Self { arc_lengths, shares }
-    }
-
-    /// Arc lengths of the joints of `n` elements.
-    fn joints(&self, n: usize) -> Vec<f64> {
-        let total = self.shares.last().copied().unwrap_or(0.0);
-        let length = self.arc_lengths.last().copied().unwrap_or(0.0);
-        let at = |i: usize| {
-            if i == n {
-                return length;
-            }
-            let (j, beyond) = place(&self.shares, total * (i as f64 / n as f64));
-            let next = self.arc_lengths.get(j + 1).copied().unwrap_or(length);
-            self.arc_lengths[j] + (next - self.arc_lengths[j]) * beyond
-        };
-        (0..=n).map(at).collect()
-    }
+        })
+    })
 }

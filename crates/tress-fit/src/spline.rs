@@ -34,6 +34,7 @@ pub struct Spline {
     spans: Vec<f64>,
     /// Arc length at each point.
     arc_lengths: Vec<f64>,
+    turning: f64,
 }
 
 /// Abscissas in 0 to 1 and weights of the five-point Gauss-Legendre rule.
@@ -58,12 +59,16 @@ impl Spline {
             TangentRule::Centripetal => chords.map(f64::sqrt).collect(),
             TangentRule::Circle | TangentRule::Helix => chords.collect(),
         };
-        let slopes = (0..points.len()).map(|i| slope(points, &spans, i, rule)).collect();
-        let mut spline = Self { points: points.to_vec(), slopes, spans, arc_lengths: vec![0.0] };
-        spline.arc_lengths.reserve(points.len());
+        let slopes: Vec<DVec3> =
+            (0..points.len()).map(|i| slope(points, &spans, i, rule)).collect();
+        let angles = slopes.windows(2).map(|s| s[0].angle_between(s[1]));
+        let turning = angles.filter(|angle| angle.is_finite()).sum();
+        let arc_lengths = Vec::with_capacity(points.len());
+        let mut spline = Self { points: points.to_vec(), slopes, spans, arc_lengths, turning };
         let mut length = 0.0;
+        spline.arc_lengths.push(length);
         for i in 0..spline.spans.len() {
-            length += spline.segment_length(i, 1.0);
+            length += spline.segment(i).length(1.0);
             spline.arc_lengths.push(length);
         }
         spline
@@ -95,7 +100,7 @@ impl Spline {
     /// Sum of the angles between neighbouring points' tangents, in radians.
     #[must_use]
     pub fn turning(&self) -> f64 {
-        self.slopes.windows(2).map(|s| s[0].angle_between(s[1])).filter(|a| a.is_finite()).sum()
+        self.turning
     }
 
     /// Position and unit tangent at an arc length, held within the curve.
@@ -110,26 +115,28 @@ impl Spline {
         }
         let wanted = (s - self.arc_lengths[i]).max(0.0);
         let total = self.arc_lengths[i + 1] - self.arc_lengths[i];
+        let segment = self.segment(i);
         let mut u = if 0.0 < total { (wanted / total).min(1.0) } else { 0.0 };
         for _ in 0..INVERSION_STEPS {
-            let off = self.segment_length(i, u) - wanted;
-            let speed = self.derivative(i, u).length();
+            let off = segment.length(u) - wanted;
+            let speed = segment.speed(u);
             if speed <= 1e-9 * total {
                 break;
             }
             u = (u - off / speed).clamp(0.0, 1.0);
             // What a step leaves is of the order of its square.
-            if off.abs() <= 1e-7 * total {
+            if off.abs() <= 1e-5 * total {
                 break;
             }
         }
-        let tangent = self.derivative(i, u).try_normalize();
+        let tangent = segment.derivative(u).try_normalize();
         (self.position(i, u), tangent.unwrap_or_else(|| self.slopes[i].normalize_or(DVec3::X)))
     }
 
-    fn segment_length(&self, i: usize, u: f64) -> f64 {
-        let speeds = GAUSS.map(|(x, weight)| weight * self.derivative(i, u * x).length());
-        u * speeds.iter().sum::<f64>()
+    fn segment(&self, i: usize) -> Segment {
+        let chord = self.points[i + 1] - self.points[i];
+        let (m, n) = (self.slopes[i] * self.spans[i], self.slopes[i + 1] * self.spans[i]);
+        Segment::new(m, 6.0 * chord - 4.0 * m - 2.0 * n, 3.0 * (m + n) - 6.0 * chord)
     }
 
     fn position(&self, i: usize, u: f64) -> DVec3 {
@@ -138,13 +145,37 @@ impl Spline {
         let v = 1.0 - u;
         p + (q - p) * (u * u * (3.0 - 2.0 * u)) + m * (u * v * v) - n * (u * u * v)
     }
+}
 
-    /// Derivative by `u`, which runs from 0 to 1 along segment `i`.
-    fn derivative(&self, i: usize, u: f64) -> DVec3 {
-        let chord = self.points[i + 1] - self.points[i];
-        let (m, n) = (self.slopes[i] * self.spans[i], self.slopes[i + 1] * self.spans[i]);
-        let v = 1.0 - u;
-        chord * (6.0 * u * v) + m * (v * (1.0 - 3.0 * u)) - n * (u * (2.0 - 3.0 * u))
+/// The derivative of a cubic segment, `a + b u + c u^2` with `u` from 0 to 1.
+struct Segment {
+    a: DVec3,
+    b: DVec3,
+    c: DVec3,
+    /// The square of its length, by powers of `u`.
+    speed_square: [f64; 5],
+}
+
+impl Segment {
+    fn new(a: DVec3, b: DVec3, c: DVec3) -> Self {
+        let speed_square =
+            [a.dot(a), 2.0 * a.dot(b), b.dot(b) + 2.0 * a.dot(c), 2.0 * b.dot(c), c.dot(c)];
+        Self { a, b, c, speed_square }
+    }
+
+    fn derivative(&self, u: f64) -> DVec3 {
+        self.a + u * (self.b + u * self.c)
+    }
+
+    fn speed(&self, u: f64) -> f64 {
+        let square = self.speed_square.iter().rev().fold(0.0, |sum, power| sum * u + power);
+        // Rounding may leave less than nothing where the curve halts.
+        square.max(0.0).sqrt()
+    }
+
+    /// The arc length from 0 to `u`.
+    fn length(&self, u: f64) -> f64 {
+        u * GAUSS.iter().map(|(x, weight)| weight * self.speed(u * x)).sum::<f64>()
     }
 }
 

@@ -1,6 +1,7 @@
 //! One step of the refinement: the sweep from the tip, and the two ways back from the root.
 
 use glam::DVec3;
+use pulp::{Arch, Simd, WithSimd};
 use tress_geometry::{Element, Frame};
 
 use super::motion::{Motion, gap, lean, moved};
@@ -45,6 +46,17 @@ impl Refiner {
         draft: &Draft,
         damping: f64,
     ) -> [f64; 5] {
+        Arch::new().dispatch(SweepBack { refiner: self, problem, draft, damping })
+    }
+
+    #[inline(always)]
+    fn sweep_back_in_registers<S: Simd>(
+        &mut self,
+        simd: S,
+        problem: Problem<'_>,
+        draft: &Draft,
+        damping: f64,
+    ) -> [f64; 5] {
         let Problem { points, hold, settings } = problem;
         let n = draft.elements.len();
         self.gains.resize(n, Gain::STAY);
@@ -57,20 +69,20 @@ impl Refiner {
             let whole = Motion::new(element, element.length);
             let gap = gap(frame, &whole, &draft.joints[j + 1]);
             let transition = whole.transition(frame, element.curvature, &draft.joints[j + 1]);
-            let mut cost = transition.pull_back(&beyond, &gap);
+            let mut cost = transition.pull_back(simd, &beyond, &gap);
             while hold == Hold::Nearest && 0 < left && draft.places[left - 1].0 == j {
                 left -= 1;
                 let motion = Motion::new(element, draft.places[left].1);
                 let miss = frame.axes.transpose() * (frame.position - points[left]);
                 for row in motion.across(miss) {
-                    cost.add_square(&row);
+                    cost.add_square(simd, &row);
                 }
             }
             cost.damp_curvature(damping * element.length.powi(4));
             let (cost, length) = if settings.lengths {
                 let (excess, slope) = length_excess(element.length, self.drafted[j]);
                 cost.add_length_square(slope, excess);
-                cost.without_length(LENGTH_DAMPING + damping)
+                cost.without_length(simd, LENGTH_DAMPING + damping)
             } else {
                 cost.with_length_held()
             };
@@ -81,7 +93,7 @@ impl Refiner {
             let before = draft.joints[j - 1].axes * draft.elements[j - 1].curvature;
             let jump = element.curvature - frame.axes.transpose() * before;
             let tie = settings.prior * self.ties[j];
-            (beyond, self.gains[j].curvature) = cost.without_curvature(tie, jump);
+            (beyond, self.gains[j].curvature) = cost.without_curvature(simd, tie, jump);
             if hold == Hold::Joints && 0 < left && draft.places[left - 1].0 == j {
                 left -= 1;
                 hold_joint(&mut beyond, frame, points[left]);
@@ -149,6 +161,24 @@ impl Refiner {
     }
 }
 
+/// The sweep from the tip, compiled for the registers of the machine that runs it: they are as wide
+/// as rows of matrices. No result depends on their width.
+struct SweepBack<'a> {
+    refiner: &'a mut Refiner,
+    problem: Problem<'a>,
+    draft: &'a Draft,
+    damping: f64,
+}
+
+impl WithSimd for SweepBack<'_> {
+    type Output = [f64; 5];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> [f64; 5] {
+        self.refiner.sweep_back_in_registers(simd, self.problem, self.draft, self.damping)
+    }
+}
+
 impl Gain {
     /// No answer.
     const STAY: Self = Self {
@@ -192,7 +222,8 @@ fn changed(
 }
 
 /// Adds half the square of a joint's distance from a point, by the joint's deviations.
-fn hold_joint(cost: &mut Quadratic<8>, joint: &Frame, point: DVec3) {
+#[inline(always)]
+fn hold_joint(cost: &mut Quadratic, joint: &Frame, point: DVec3) {
     let miss = joint.axes.transpose() * (joint.position - point);
     for (i, miss) in miss.to_array().into_iter().enumerate() {
         cost.h[i][i] += 1.0;

@@ -1,4 +1,6 @@
 use glam::DVec3;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 use tress_geometry::polyline::Defect;
 
 use super::*;
@@ -232,6 +234,39 @@ fn elements_are_short_where_curvature_changes() {
     let shortest = fit.elements.iter().map(|element| element.length).fold(f64::MAX, f64::min);
     assert!(3.0 * shortest < longest, "{shortest} {longest}");
     assert!(fit.elements.len() < 60, "{}", fit.elements.len());
+}
+
+/// A strand of `n` random helices that meet with one tangent, 14 points a unit of length.
+fn pieces(n: usize, random: &mut Pcg64Mcg) -> Vec<DVec3> {
+    let mut curvature = || {
+        let direction = DVec3::from([(); 3].map(|()| random.random_range(-1.0..1.0)));
+        direction.normalize_or(DVec3::Z) * random.random_range(1.5..4.0)
+    };
+    let elements: Vec<Element> = (0..n)
+        .map(|i| Element { curvature: curvature(), length: 1.0 + 0.37 * (i % 3) as f64 })
+        .collect();
+    let strand = SuperHelix { root: Frame::IDENTITY, elements: &elements };
+    let steps = (14.0 * strand.length()).floor();
+    let along = (0..).map(f64::from).take_while(|i| *i <= steps);
+    strand.frames_at(along.map(|i| strand.length() * i / steps)).map(|f| f.position).collect()
+}
+
+#[test]
+fn helices_that_a_strand_is_made_of_are_found() {
+    let mut random = Pcg64Mcg::seed_from_u64(7);
+    let (mut found, mut truth) = (0, 0);
+    for i in 0..12 {
+        let n = 1 + i % 6;
+        let points = pieces(n, &mut random);
+        let options = refined(Elements::Tolerance(Tolerance::Length(1e-3)));
+        let fit = fit_strand(&points, &options).expect("a strand");
+        let apart = deviation(&fit.super_helix(), &points, &fit.arc_lengths);
+        assert!(apart.greatest <= 1e-3, "{i}: {apart:?}");
+        assert!(fit.elements.len() <= n + 2, "{i}: {} for {n}", fit.elements.len());
+        found += fit.elements.len();
+        truth += n;
+    }
+    assert!(10 * found <= 11 * truth, "{found} for {truth}");
 }
 
 #[test]
