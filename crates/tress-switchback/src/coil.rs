@@ -92,7 +92,8 @@ impl Coil {
     ///
     /// If `v` is not between -1 and 1, the material is none, or no such coil exists.
     pub fn new(v: f64, material: &Material) -> Result<Self, CoilError> {
-        if !(v.abs() < 1.0) {
+        let inside = -1.0 < v && v < 1.0;
+        if !inside {
             return Err(CoilError::Frequency(v));
         }
         let Material { poisson_ratio, rest_twist } = *material;

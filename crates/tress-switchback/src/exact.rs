@@ -8,8 +8,8 @@
 //! `(kappa1, kappa2) = rho (cos theta, sin theta)`,
 //! `rho^2 = kappa1_h^2 + Gamma kappa3_h^2 + 2 F (v - 1)`.
 //!
-//! [`crate::shoot`] finds it. McMillen and Goriely, "Tendril perversion in intrinsically curved
-//! rods", Journal of Nonlinear Science 12(3), 2002, show that the solution exists and is this one.
+//! [`crate::shoot`] finds it. That such solutions exist is shown in "Tendril perversion in
+//! intrinsically curved rods", Journal of Nonlinear Science 12(3), 2002, the source of [CC 4.2].
 
 use glam::DVec3;
 

@@ -337,7 +337,7 @@ mod tests {
     #[test]
     fn the_other_hand_is_the_mirror_image() {
         let (right, left) = (ritz(0.5), ritz(-0.5));
-        assert_eq!(right.parameters(), left.parameters());
+        assert!(right.parameters().iter().eq(left.parameters().iter()));
         for s in [-7.0, -0.5, 0.0, 3.0] {
             let mirrored = right.curvature(s) * DVec3::new(1.0, -1.0, -1.0);
             assert!(left.curvature(s).distance(mirrored) < 1e-14);

@@ -54,7 +54,6 @@ pub(crate) fn linearized(material: &Material, y: &State, w: &State) -> State {
 
 /// `|f|`, `m . f` and the energy: the same all along a rod in equilibrium.
 #[cfg(test)]
-
 pub(crate) fn invariants(material: &Material, y: &State) -> [f64; 3] {
     let [k1, k2, k3, f1, f2, f3] = *y;
     let gamma = material.torsional();

@@ -60,9 +60,9 @@ impl Half {
         let mut half = Self { tail, deviation: [0.0; 2], length: 0.0, steps: Vec::new() };
         let mut number = start;
         let mut iterations = 0;
-        for folds in DISTANCES {
+        for (i, folds) in DISTANCES.iter().enumerate() {
             let distance = folds / tail.decay();
-            let last = folds == DISTANCES[DISTANCES.len() - 1];
+            let last = i + 1 == DISTANCES.len();
             loop {
                 let nudged = half.walk(material, &middle(number + NUDGE), distance)?;
                 let end = half.walk(material, &middle(number), distance)?;

@@ -153,9 +153,9 @@ mod tests {
             let rate = linearized(&m, &tail.coil, &w);
             let h = 1e-5;
             let (up, down) = (tail.decay_by(start, h), tail.decay_by(start, -h));
-            for i in 0..6 {
+            for (i, rate) in rate.iter().enumerate() {
                 let change = (tail.state(up)[i] - tail.state(down)[i]) / (2.0 * h);
-                assert!((rate[i] - change).abs() < 1e-8, "{v} {i}: {} {change}", rate[i]);
+                assert!((rate - change).abs() < 1e-8, "{v} {i}: {rate} {change}");
             }
             let once = tail.decay_by(start, 0.8);
             let twice = tail.decay_by(tail.decay_by(start, 0.3), 0.5);
