@@ -14,6 +14,7 @@
 
 mod mix;
 mod rotation;
+mod surface;
 mod weights;
 
 use glam::{DQuat, DVec3};
@@ -25,6 +26,7 @@ use crate::fit::hold;
 use crate::{HelicoidGroom, PHelicoid, Piece, TraceError, Tracing, positive_tangential};
 use mix::Guide;
 pub use rotation::mean_rotation;
+pub use surface::normals_at;
 pub use weights::shepard;
 
 /// What of the guides is mixed.

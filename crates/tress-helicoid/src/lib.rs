@@ -60,7 +60,7 @@ mod wisp;
 pub use bridge::{BridgeError, elements, from_helices, to_helices};
 pub use field::Helicoid;
 pub use fill::{
-    FillError, FillOptions, Filled, Mixing, Roots, fill, mean_rotation, shepard,
+    FillError, FillOptions, Filled, Mixing, Roots, fill, mean_rotation, normals_at, shepard,
 };
 pub use fit::{
     FitOptions, FitOptionsError, FitReport, Fitted, Method, Pieces, Roll, StrandFit, fit,
