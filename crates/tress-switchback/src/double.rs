@@ -28,8 +28,8 @@ use crate::{Coil, Material, Profile, SwitchbackError};
 /// let hair = Material { rest_twist: 0.2, ..Material::default() };
 /// let double = DoubleSwitchback::new(0.6, &hair)?;
 /// let coil = double.coil().curvature;
-/// assert!(double.curvature(-60.0).distance(coil) < 1e-12);
-/// assert!(double.curvature(60.0).distance(coil) < 1e-12);
+/// assert!(double.curvature(-90.0).distance(coil) < 1e-9);
+/// assert!(double.curvature(90.0).distance(coil) < 1e-9);
 /// // Right-handed coils, and left-handed between the two changes.
 /// assert!(0.0 < coil.z && double.curvature(0.0).z < 0.0);
 /// # Ok::<(), tress_switchback::SwitchbackError>(())

