@@ -4,7 +4,10 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec3;
-use tress_fit::{Elements, FitOptions, HelixArc, Sampling, Tolerance, fit, fit_strand, sample};
+use tress_fit::{
+    Elements, FitOptions, HelixArc, Sampling, Spline, TangentRule, Tolerance, deviation, fit,
+    fit_strand, float_points, sample,
+};
 use tress_geometry::{Groom, Strands};
 
 /// A coil of `turns` turns whose axis bends, nine points a turn.
@@ -75,8 +78,47 @@ fn points(c: &mut Criterion) {
     let folded: Vec<DVec3> =
         (0..160).map(|i| DVec3::X * f64::from((i % 40 - 20_i32).abs())).collect();
     group.bench_function("doubled back", |b| b.iter(|| fit_strand(&folded, &refined())));
+    let frizz = frizz(73);
+    group.bench_function("frizz", |b| b.iter(|| fit_strand(&frizz, &refined())));
     group.finish();
 }
 
-criterion_group!(benches, arcs, strands, points);
+/// Segments of one length that turn by about a right angle at each point, in no plane.
+fn frizz(points: u32) -> Vec<DVec3> {
+    let heading = |i: u32| {
+        let a = f64::from(i);
+        DVec3::new((1.7 * a).cos(), (2.3 * a).sin(), (3.1 * a).cos() + 0.3).normalize_or(DVec3::X)
+    };
+    let walk = (0..points).scan(DVec3::ZERO, |at, i| {
+        *at += heading(i);
+        Some(*at)
+    });
+    walk.collect()
+}
+
+/// What a fit is made of.
+fn parts(c: &mut Criterion) {
+    let mut group = c.benchmark_group("parts");
+    let points = coil(18, 0.0);
+    group.throughput(Throughput::Elements(points.len() as u64));
+    for rule in [TangentRule::Circle, TangentRule::Helix] {
+        group.bench_function(format!("spline {rule:?}"), |b| {
+            b.iter(|| Spline::through(black_box(&points), rule));
+        });
+    }
+    let spline = Spline::through(&points, TangentRule::Helix);
+    let tangents: Vec<DVec3> = spline.tangents().collect();
+    group.bench_function("float points", |b| {
+        b.iter(|| float_points(&mut points.clone(), black_box(&tangents)));
+    });
+    let fit = fit_strand(&points, &refined()).expect("a coil");
+    group.bench_function("deviation", |b| {
+        b.iter(|| deviation(&fit.super_helix(), black_box(&points), &fit.arc_lengths));
+    });
+    group.finish();
+    let middle = 0.4321 * spline.length();
+    c.bench_function("spline at", |b| b.iter(|| spline.at(black_box(middle))));
+}
+
+criterion_group!(benches, arcs, parts, strands, points);
 criterion_main!(benches);

@@ -199,3 +199,39 @@ pub(crate) fn circle(chord: DVec3, t0: DVec3) -> Option<HelixArc> {
     let length = reach * angle / sine.length();
     Some(HelixArc { darboux: axis * (2.0 * angle / length), length })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TangentRule;
+
+    fn coil() -> Spline {
+        let at = |a: f64| DVec3::new(a.cos(), a.sin(), 0.1 * a * (1.0 + 0.03 * a));
+        let points: Vec<DVec3> = (0..20).map(|i| at(0.9 * f64::from(i))).collect();
+        Spline::through(&points, TangentRule::Helix)
+    }
+
+    #[test]
+    fn joints_are_at_all_points_and_as_many_as_asked_for() {
+        let spline = coil();
+        for n in [19, 20, 37, 38, 500] {
+            let joints = at_points_and_between(&spline, n);
+            assert_eq!(joints.len(), n + 1);
+            assert!(joints.windows(2).all(|s| s[0] < s[1]));
+            assert!(spline.arc_lengths().iter().all(|s| joints.contains(s)));
+        }
+    }
+
+    #[test]
+    fn arcs_that_are_cut_still_pass_through_every_point() {
+        let spline = coil();
+        for n in [19, 33, 90] {
+            let fit = through_points(&spline, n);
+            assert_eq!(fit.elements.len(), n);
+            let frames = fit.super_helix();
+            for (frame, p) in frames.frames_at(fit.arc_lengths.clone()).zip(spline.points()) {
+                assert!(frame.position.distance(*p) < 1e-12);
+            }
+        }
+    }
+}

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-use tress::fit::{Elements, FitOptions, Fitted, Refine, fit};
+use tress::fit::{Elements, FitOptions, Fitted, Refine, Tolerance, fit};
 use tress::geometry::glam::DVec3;
 use tress::geometry::{Attributes, Element, Frame, Groom, Strands, SuperHelix};
 use tress::io::WriteOptions;
@@ -20,24 +20,37 @@ pub(crate) const NAMES: &[&str] = &[
     "fit_guides_greatest_n90",
     "fit_guides_length_n90",
     "fit_guides_direct_rms_n90",
+    "fit_guides_f70_rms_n40",
+    "fit_swatch_rms_n90",
+    "fit_swatch_length_n90",
+    "fit_swatch_seconds",
+    "fit_tolerance_excess",
     "fit_helix_error",
     "fit_doubling_n80",
     "fit_doubling_ratio_n160",
     "fit_10k_seconds",
     "fit_10k_direct_seconds",
+    "fit_10k_read_seconds",
+    "fit_10k_direct_times",
     "fit_10k_rms",
     "fit_strand_us_1k",
     "fit_strand_us_10k",
     "fit_strand_us_100k",
+    "fit_point_us_x1",
+    "fit_point_us_x2",
+    "fit_point_us_x4",
     "memory_peak_ratio_fit",
 ];
 
 pub(crate) fn run(figures: &mut Figures) -> Outcome {
     guides(figures)?;
+    swatch(figures)?;
     helices(figures)?;
+    pieces(figures)?;
     doubling(figures)?;
     head(figures)?;
-    linear(figures)
+    linear(figures)?;
+    dense(figures)
 }
 
 fn fitted(groom: &Groom, n: usize, refine: Option<Refine>) -> Outcome<Fitted> {
@@ -60,6 +73,21 @@ fn guides(figures: &mut Figures) -> Outcome {
     }
     let direct = fitted(&guides, 90, None)?.report.deviation;
     figures.add("fit_guides_direct_rms_n90", direct.rms, "unit", Bar::None);
+    // The prior was chosen on the first frame: here is the last.
+    let last = grooms::groom("curlycue/curlycue_guides_f70.obj", 98, 108)?;
+    let deviation = fitted(&last, 40, Some(Refine::default()))?.report.deviation;
+    figures.add("fit_guides_f70_rms_n40", deviation.rms, "unit", Bar::AtMost(0.058));
+    Ok(())
+}
+
+/// Frizz: strands that turn by a right angle and more at many of their points.
+fn swatch(figures: &mut Figures) -> Outcome {
+    let swatch = grooms::groom("curlycue/curlycue_swatch70_seed1337.obj", 3176, 73)?;
+    let started = Instant::now();
+    let deviation = fitted(&swatch, 90, Some(Refine::default()))?.report.deviation;
+    figures.add("fit_swatch_seconds", started.elapsed().as_secs_f64(), "s", Bar::None);
+    figures.add("fit_swatch_rms_n90", deviation.rms, "unit", Bar::None);
+    figures.add("fit_swatch_length_n90", 100.0 * deviation.length_change, "%", Bar::None);
     Ok(())
 }
 
@@ -87,10 +115,15 @@ fn head(figures: &mut Figures) -> Outcome {
     let groom = grooms::polylines(&input)?;
     let deviation = fitted(&groom, 90, Some(Refine::default()))?.report.deviation;
     figures.add("fit_10k_rms", deviation.rms, "unit", Bar::None);
+    let read = super::best_of(3, || grooms::polylines(&input))?;
+    figures.add("fit_10k_read_seconds", read, "s", Bar::None);
     let elements = Elements::Count(90);
-    let options = FitOptions { elements, refine: None, measure: false, ..FitOptions::default() };
-    let direct = super::best_of(3, || fit(&groom, &options))?;
-    figures.add("fit_10k_direct_seconds", direct, "s", Bar::AtMost(0.5));
+    let refined = FitOptions { elements, measure: false, ..FitOptions::default() };
+    let unrefined = FitOptions { refine: None, ..refined };
+    let direct = super::best_of(3, || fit(&groom, &unrefined))?;
+    figures.add("fit_10k_direct_seconds", read + direct, "s", Bar::AtMost(0.5));
+    let slow = super::best_of(2, || fit(&groom, &refined))?;
+    figures.add("fit_10k_direct_times", slow / direct, "", Bar::AtLeast(10.0));
     Ok(())
 }
 
@@ -177,5 +210,53 @@ fn linear(figures: &mut Figures) -> Outcome {
         let each = 1e6 * started.elapsed().as_secs_f64() / strands as f64;
         figures.add(&format!("fit_strand_us_{name}"), each, "us", Bar::None);
     }
+    Ok(())
+}
+
+/// Time a point does not grow with how densely one and the same strand is sampled.
+fn dense(figures: &mut Figures) -> Outcome {
+    for (name, per_turn) in [("x1", 8.0), ("x2", 16.0), ("x4", 32.0)] {
+        let points = (0..).map(|i| f64::from(i) * TAU / per_turn).map(|angle| {
+            let radius = 0.5 + 0.05 * (0.17 * angle).sin();
+            DVec3::new(radius * angle.cos() + 2e-3 * angle * angle, radius * angle.sin(), angle)
+        });
+        let mut strands = Strands::default();
+        for _ in 0..500 {
+            strands.push(points.clone().take_while(|p| p.z <= 18.0 * TAU))?;
+        }
+        let groom = Groom::new(strands);
+        let seconds = super::best_of(3, || fitted(&groom, 40, Some(Refine::default())))?;
+        let each = 1e6 * seconds / groom.strands().points().len() as f64;
+        figures.add(&format!("fit_point_us_{name}"), each, "us", Bar::None);
+    }
+    Ok(())
+}
+
+/// Strands made of helices, whose number is known: how many times as many a tolerance finds.
+fn pieces(figures: &mut Figures) -> Outcome {
+    let mut strands = Strands::default();
+    let mut truth = 0;
+    for n in (0..60).map(|i| 1 + i % 12) {
+        let element = |i: usize| {
+            // Directions and sizes that lie evenly, by ratios that no small number divides.
+            let along = |ratio: f64| ((truth + i) as f64 * ratio).fract();
+            let (z, angle) = (2.0 * along(0.618034) - 1.0, TAU * along(0.414214));
+            let across = (1.0 - z * z).sqrt();
+            let direction = DVec3::new(across * angle.cos(), across * angle.sin(), z);
+            let length = 1.0 + 0.37 * (i % 3) as f64;
+            Element { curvature: (1.5 + 2.5 * along(0.259921)) * direction, length }
+        };
+        let elements: Vec<Element> = (0..n).map(element).collect();
+        let strand = SuperHelix { root: Frame::IDENTITY, elements: &elements };
+        let mut points = vec![DVec3::ZERO; (14.0 * strand.length()) as usize];
+        strand.sample_evenly(&mut points);
+        strands.push(points)?;
+        truth += n;
+    }
+    let elements = Elements::Tolerance(Tolerance::Length(1e-3));
+    let options = FitOptions { elements, ..FitOptions::default() };
+    let found = fit(&Groom::new(strands), &options)?.report.elements;
+    let excess = found as f64 / truth as f64;
+    figures.add("fit_tolerance_excess", excess, "", Bar::AtMost(1.1));
     Ok(())
 }

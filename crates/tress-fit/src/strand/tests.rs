@@ -269,6 +269,55 @@ fn helices_that_a_strand_is_made_of_are_found() {
     assert!(10 * found <= 11 * truth, "{found} for {truth}");
 }
 
+/// A strand of unit segments that turn by up to 2.6 radians at each point.
+fn frizz(n: usize, random: &mut Pcg64Mcg) -> Vec<DVec3> {
+    let mut points = vec![DVec3::ZERO];
+    let mut heading = DVec3::X;
+    for _ in 1..n {
+        let across = heading.any_orthonormal_vector();
+        let about = glam::DQuat::from_axis_angle(heading, random.random_range(0.0..6.3)) * across;
+        heading = glam::DQuat::from_axis_angle(about, random.random_range(0.2..2.6)) * heading;
+        heading = heading.normalize();
+        points.push(points[points.len() - 1] + heading);
+    }
+    points
+}
+
+#[test]
+fn strands_that_turn_sharply_are_followed() {
+    let mut random = Pcg64Mcg::seed_from_u64(3);
+    for i in 0..12 {
+        let points = frizz(60, &mut random);
+        for elements in [Elements::PerSegment, Elements::Count(90)] {
+            let fit = fit_strand(&points, &refined(elements)).expect("a strand");
+            let apart = deviation(&fit.super_helix(), &points, &fit.arc_lengths);
+            assert!(apart.rms < 0.1, "{i} {elements:?}: {apart:?}");
+            assert!(apart.length_change < 0.05, "{i} {elements:?}: {apart:?}");
+            assert!(fit.super_helix().length() < 3.0 * 59.0, "{i}: it winds up");
+        }
+        let within = Elements::Tolerance(Tolerance::Length(0.05));
+        let fit = fit_strand(&points, &refined(within)).expect("a strand");
+        let apart = deviation(&fit.super_helix(), &points, &fit.arc_lengths);
+        assert!(apart.greatest <= 0.05, "{i}: {apart:?}");
+    }
+}
+
+#[test]
+fn tolerances_that_are_no_lengths_are_refused() {
+    for value in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for tolerance in [Tolerance::Length(value), Tolerance::OfRadius(value)] {
+            assert!(refined(Elements::Tolerance(tolerance)).validate().is_err(), "{tolerance:?}");
+        }
+    }
+    for count in [0, FitOptions::MOST_ELEMENTS + 1, usize::MAX] {
+        assert!(refined(Elements::Count(count)).validate().is_err(), "{count}");
+    }
+    for prior in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refine = Some(Refine { prior, ..Refine::default() });
+        assert!(FitOptions { refine, ..FitOptions::default() }.validate().is_err(), "{prior}");
+    }
+}
+
 #[test]
 fn between_the_points_the_fit_follows_the_coil_it_was_taken_from() {
     // Twenty points a turn are known, every fourth is given.
