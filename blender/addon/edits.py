@@ -45,6 +45,7 @@ class TRESS_OT_ruffle(HairOperator, bpy.types.Operator):
 
     bl_idname = "tress.ruffle"
     bl_label = "Ruffle"
+    moves_hair = True
 
     probability: FloatProperty(
         name="Probability",
@@ -93,6 +94,7 @@ class TRESS_OT_recoil(HairOperator, bpy.types.Operator):
 
     bl_idname = "tress.recoil"
     bl_label = "Recoil"
+    moves_hair = True
 
     radius: FloatProperty(name="Radius", description="Factor", default=1.0, min=0.01, soft_max=3.0)
     frequency: FloatProperty(
@@ -123,6 +125,7 @@ class TRESS_OT_blend(HairOperator, bpy.types.Operator):
 
     bl_idname = "tress.blend"
     bl_label = "Blend"
+    moves_hair = True
 
     amount: FloatProperty(name="Amount", default=0.5, soft_min=0.0, soft_max=1.0, subtype="FACTOR")
     space: EnumProperty(
@@ -170,6 +173,7 @@ class TRESS_OT_switchback(HairOperator, bpy.types.Operator):
 
     bl_idname = "tress.switchback"
     bl_label = "Switchbacks"
+    moves_hair = True
 
     count: IntProperty(name="Number", description="Switchbacks a strand", default=1, min=1)
     scatter: BoolProperty(
@@ -212,6 +216,7 @@ class TRESS_OT_restore(HairOperator, bpy.types.Operator):
 
     bl_idname = "tress.restore"
     bl_label = "Restore Original"
+    moves_hair = True
 
     @classmethod
     def poll(cls, context):

@@ -14,6 +14,9 @@ import tress
 
 ORIGINAL = "tress_original"
 
+#: The positions at rest of hair that has an armature.
+REST = "tress_rest"
+
 #: Fits that are remembered: adjusting an operator's settings runs it again on the same hair.
 MOST_FITS = 4
 

@@ -19,9 +19,17 @@ class HairOperator:
 
     bl_options = {"REGISTER", "UNDO"}
 
+    #: Whether the operator moves hair, which an armature on it would move back.
+    moves_hair = False
+
     @classmethod
     def poll(cls, context):
-        return hair.is_hair(context.object)
+        if not hair.is_hair(context.object):
+            return False
+        if cls.moves_hair and hair.REST in context.object.data.attributes:
+            cls.poll_message_set("Apply or discard the armature first")
+            return False
+        return True
 
     def execute(self, context):
         try:

@@ -18,7 +18,6 @@ from mathutils import Matrix
 
 from . import hair
 
-REST = "tress_rest"
 CLUSTER = "tress_cluster"
 
 #: A stamp on the hair that changes with every new rest.
@@ -45,7 +44,7 @@ class Drag:
     """A sculptor for the hair of one object, and what it needs at every step."""
 
     def __init__(self, obj):
-        points = hair.vectors(obj.data, REST)
+        points = hair.vectors(obj.data, hair.REST)
         attribute = obj.data.attributes.get(CLUSTER)
         if points is None or attribute is None:
             raise tress.TressError("the hair has no armature")

@@ -42,7 +42,7 @@ class TRESS_OT_armature_add(HairOperator, bpy.types.Operator):
         pose = tress.armature(helices, clusters=clusters, lengths=lengths)
         groups = tress.groups(helices, clusters=clusters)
         hair.keep_original(obj)
-        hair.set_vectors(obj.data, rig.REST, polylines.positions)
+        hair.set_vectors(obj.data, hair.REST, polylines.positions)
         hair.set_numbers(obj.data, rig.CLUSTER, groups.astype("int32"))
         obj[rig.STAMP] = secrets.token_hex(8)
         obj[rig.STIFFNESS] = self.stiffness
@@ -113,7 +113,7 @@ class TRESS_OT_armature_remove(HairOperator, bpy.types.Operator):
         return super().poll(context) and bool(rig.joints(context.object))
 
     def run(self, _context, obj):
-        points = hair.vectors(obj.data, rig.REST)
+        points = hair.vectors(obj.data, hair.REST)
         if not self.apply and points is not None:
             hair.move(obj, points)
         collections = set()
@@ -123,7 +123,7 @@ class TRESS_OT_armature_remove(HairOperator, bpy.types.Operator):
         for collection in collections:
             if not collection.all_objects and collection.name.startswith(obj.name):
                 bpy.data.collections.remove(collection)
-        for name in (rig.REST, rig.CLUSTER):
+        for name in (hair.REST, rig.CLUSTER):
             if name in obj.data.attributes:
                 obj.data.attributes.remove(obj.data.attributes[name])
         for name in (rig.STAMP, rig.STIFFNESS):

@@ -1,6 +1,9 @@
 """Every operator, run without a window on hair whose curl is known."""
 
 import json
+import pathlib
+import subprocess
+import sys
 
 import bpy
 import numpy as np
@@ -210,6 +213,8 @@ def test_a_dragged_empty_moves_its_wisp_and_keeps_lengths(scene, addon):
     assert moved[own, -1] == pytest.approx(np.hypot(0.1, 0.1), abs=0.01)
     assert moved[own, 0].max() < 1e-4 and moved[~own].max() < 0.005
     assert np.abs(lengths(obj) / length - 1).max() < 0.01
+    for edit in (bpy.ops.tress.recoil, bpy.ops.tress.ruffle, bpy.ops.tress.restore):
+        assert not edit.poll(), "an armature would move the hair back"
     # The joint nearer the root takes the tip's along, as bones do.
     root = tip.parent
     assert root in empties
@@ -383,3 +388,13 @@ def test_the_panel_draws(scene, addon):
     assert "tress.armature_remove" in panel.layout.words
     activate(obj)
     assert isinstance(tress.__version__, str)
+
+
+def test_a_wheel_of_another_platform_is_said_to_be_one(tmp_path):
+    (tmp_path / "tress").mkdir()
+    (tmp_path / "tress" / "__init__.py").write_text("from ._tress import *")
+    addon = pathlib.Path(__file__).parents[1] / "addon"
+    (tmp_path / "the_addon").symlink_to(addon)
+    code = f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import the_addon"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert run.returncode == 1 and "is not for" in run.stderr and "Python 3" in run.stderr

@@ -1,8 +1,7 @@
-//! The Python package, built, installed into an environment of its own and tested.
+//! The Python package, built, installed into a folder of its own and tested.
 
 use std::env;
 use std::ffi::OsString;
-use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::{root, say};
@@ -10,9 +9,9 @@ use crate::{root, say};
 /// What building and testing need beside Python itself.
 const NEEDS: &str = "maturin, numpy, pytest, hypothesis";
 
-/// Installs the package of this repository beside the interpreter's own packages, without asking
-/// any server, and runs its tests; where the interpreter or something it needs is not there, says
-/// so and is content.
+/// Installs the package of this repository into a folder of its own, without asking any server,
+/// and runs its tests; where the interpreter or something it needs is not there, says so and is
+/// content.
 pub(crate) fn test() -> Result<(), String> {
     let Some(python) = interpreter() else {
         say(&format!(
@@ -20,13 +19,18 @@ pub(crate) fn test() -> Result<(), String> {
         ));
         return Ok(());
     };
-    let folder = root().join("target/python");
-    call(Command::new(&python).args(["-m", "venv", "--system-site-packages"]).arg(&folder))?;
-    let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let install =
-        ["-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--no-build-isolation"];
-    call(within(&own).args(install).args(["--force-reinstall", "."]))?;
-    call(within(&own).args(["-m", "pytest", "crates/tress-python/tests"]))
+    let folder = std::path::absolute(root().join("target/python"))
+        .map_err(|error| format!("target/python: {error}"))?;
+    let mut install = Command::new(&python);
+    install
+        .args(["-m", "pip", "install", "--quiet", "--no-index", "--no-deps"])
+        .args(["--no-build-isolation", "--upgrade", "--target"])
+        .arg(&folder)
+        .arg(".");
+    call(install.current_dir(root()))?;
+    let mut tests = Command::new(&python);
+    tests.args(["-m", "pytest", "crates/tress-python/tests"]).env("PYTHONPATH", &folder);
+    call(tests.current_dir(root()))
 }
 
 /// `PYTHON`, or `python3`, if it has what is needed.
@@ -39,13 +43,6 @@ fn interpreter() -> Option<OsString> {
         .stderr(Stdio::null())
         .status();
     status.is_ok_and(|status| status.success()).then_some(python)
-}
-
-/// An interpreter that works in the root of the repository.
-fn within(python: &Path) -> Command {
-    let mut command = Command::new(python);
-    command.current_dir(root());
-    command
 }
 
 fn call(command: &mut Command) -> Result<(), String> {

@@ -36,7 +36,10 @@ pub(crate) fn merged<T: Serialize + DeserializeOwned>(
 /// A dictionary, or a text in RON, as the data it describes.
 pub(crate) fn data<T: DeserializeOwned>(value: &Bound<'_, PyAny>, name: &str) -> PyResult<T> {
     if let Ok(text) = value.extract::<String>() {
-        return ron::from_str(&text).map_err(|error| {
+        // As in the files of the program: the fields of a variant stand in its own parentheses.
+        let ron = ron::Options::default()
+            .with_default_extension(ron::extensions::Extensions::UNWRAP_VARIANT_NEWTYPES);
+        return ron.from_str(&text).map_err(|error| {
             let (line, column) = (error.span.start.line, error.span.start.col);
             let code = error.code;
             TressError::new_err(format!("{name}: line {line}, column {column}: {code}"))

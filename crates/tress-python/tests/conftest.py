@@ -1,8 +1,13 @@
 """Grooms that the tests share."""
 
+import hypothesis
 import numpy as np
 import pytest
 import tress
+
+# The same examples every time, however slow the machine.
+hypothesis.settings.register_profile("tress", deadline=None, derandomize=True)
+hypothesis.settings.load_profile("tress")
 
 
 def coil_points(hand=1.0, radius=0.5, pitch=0.5, turns=10, per_turn=8, origin=(0.0, 0.0, 0.0)):
