@@ -2,6 +2,7 @@
 
 mod blending;
 mod droop;
+mod growing;
 mod posing;
 mod ruffling;
 
@@ -20,12 +21,13 @@ use crate::grooms::root;
 use crate::metric::say;
 
 /// What is pictured, and what makes the pictures of it.
-const MAKERS: [(&str, fn() -> Outcome); 5] = [
+const MAKERS: [(&str, fn() -> Outcome); 6] = [
     ("demo", demo),
     ("ruffling", ruffling::make),
     ("blending", blending::make),
     ("posing", posing::make),
     ("droop", droop::make),
+    ("growing", growing::make),
 ];
 
 /// Makes again those whose name begins with one of the arguments, or all.

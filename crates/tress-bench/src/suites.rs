@@ -3,6 +3,7 @@
 mod droop;
 mod fitting;
 mod formats;
+mod growing;
 mod pictures;
 mod sculpting;
 
@@ -19,10 +20,11 @@ struct Suite {
     run: fn(&mut Figures) -> Outcome,
 }
 
-const SUITES: [Suite; 5] = [
+const SUITES: [Suite; 6] = [
     Suite { names: fitting::NAMES, run: fitting::run },
     Suite { names: droop::NAMES, run: droop::run },
     Suite { names: formats::NAMES, run: formats::run },
+    Suite { names: growing::NAMES, run: growing::run },
     Suite { names: pictures::NAMES, run: pictures::run },
     Suite { names: sculpting::NAMES, run: sculpting::run },
 ];

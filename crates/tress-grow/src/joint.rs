@@ -8,7 +8,8 @@ use tress_geometry::Strands;
 pub struct JointReport {
     /// Hairs that have both regions.
     pub joints: usize,
-    /// Over all joints, the mean of the turning from segment to segment at the joint.
+    /// The mean of the turning from segment to segment at both ends of the segment in which the
+    /// regions meet.
     pub mean_turning: f64,
     /// The same at all other points of the same hairs.
     pub mean_turning_elsewhere: f64,
@@ -37,7 +38,8 @@ pub fn joint_report(
         let turning =
             |i: usize| (points[i] - points[i - 1]).angle_between(points[i + 1] - points[i]);
         // The joint lies between the last loose point and the first strict one: either may turn.
-        let own = turning(joint).max(if joint > 1 { turning(joint - 1) } else { 0.0 });
+        let pair = [turning(joint), if joint > 1 { turning(joint - 1) } else { turning(joint) }];
+        let own = f64::max(pair[0], pair[1]);
         let others = (1..points.len() - 1).filter(|i| *i != joint && i + 1 != joint);
         let mut greatest = 0.0;
         for angle in others.map(turning).filter(|angle| angle.is_finite()) {
@@ -49,7 +51,7 @@ pub fn joint_report(
             continue;
         }
         report.joints += 1;
-        report.mean_turning += own;
+        report.mean_turning += 0.5 * (pair[0] + pair[1]);
         report.greatest_ratio = report.greatest_ratio.max(own / greatest);
         sharpest += usize::from(greatest < own);
     }

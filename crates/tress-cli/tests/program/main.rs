@@ -1,6 +1,7 @@
 //! The program as its users meet it: exit status, what is printed where, files.
 
 mod bench;
+mod growing;
 mod sequence;
 
 use std::fs;
