@@ -48,6 +48,10 @@ pub(crate) struct Everywhere {
     /// Allow the output to be the input file
     #[arg(long, global = true)]
     pub(crate) in_place: bool,
+    /// Work on every frame of the animated Alembic and USD files given; what comes out is one
+    /// animated file again where its format is one of these, else name a file a frame
+    #[arg(long, global = true)]
+    pub(crate) animated: bool,
     /// Of a sequence (files named as in groom.%04d.obj) only these frames, as in 10-48
     #[arg(long, global = true, value_name = "A-B")]
     pub(crate) frames: Option<Frames>,

@@ -4,6 +4,7 @@
 //! output holds the report and nothing else; progress goes to standard error when that is a
 //! terminal.
 
+mod animation;
 mod args;
 mod commands;
 mod failure;
@@ -14,6 +15,7 @@ mod sequence;
 mod source;
 mod target;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -24,9 +26,7 @@ use crate::sequence::Sequence;
 
 fn main() -> ExitCode {
     let arguments: Vec<_> = std::env::args_os().collect();
-    let sequence = Sequence::of(arguments);
-    let cli = sequence.as_ref().map_or_else(Cli::parse, Sequence::parse);
-    match failure::caught(|| run(&cli, sequence.as_ref())) {
+    match failure::caught(|| run(arguments)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             failure.print();
@@ -35,7 +35,9 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(cli: &Cli, sequence: Option<&Sequence>) -> Result<(), Failure> {
+fn run(arguments: Vec<OsString>) -> Result<(), Failure> {
+    let sequence = Sequence::of(arguments.clone());
+    let cli = sequence.as_ref().map_or_else(Cli::parse, Sequence::parse);
     if let Some(threads) = cli.everywhere.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -44,7 +46,8 @@ fn run(cli: &Cli, sequence: Option<&Sequence>) -> Result<(), Failure> {
     }
     let started = std::time::Instant::now();
     let mut report = match sequence {
-        Some(sequence) => sequence.run(cli)?,
+        _ if cli.everywhere.animated => animation::run(arguments, &cli)?,
+        Some(sequence) => sequence.run(&cli)?,
         None => commands::run(&cli.command, &cli.everywhere)?,
     };
     report.set("seconds", (started.elapsed().as_secs_f64() * 1e3).round() / 1e3);

@@ -133,6 +133,7 @@ impl Sequence {
     /// Runs the command on every frame.
     pub(crate) fn run(&self, asked: &Cli) -> Result<Report, Failure> {
         let frames = self.frames(asked)?;
+        self.check_output(asked)?;
         let first = frames[0];
         let bar = progress(frames.len(), asked);
         let done: Vec<Result<Report, Failure>> = frames
@@ -150,6 +151,20 @@ impl Sequence {
             .collect();
         bar.finish_and_clear();
         summary(&frames, done)
+    }
+
+    /// Frames written to the same file would leave the last one of them.
+    fn check_output(&self, asked: &Cli) -> Result<(), Failure> {
+        let Some(output) = asked.command.output() else { return Ok(()) };
+        if self.patterns.iter().any(|(_, pattern)| Path::new(&pattern.name(0)) == output) {
+            return Ok(());
+        }
+        let stem = output.file_stem().unwrap_or_default().to_string_lossy();
+        let end = output.extension().unwrap_or_default().to_string_lossy();
+        Err(Failure::Usage(format!(
+            "{}: every frame would write this file; name one a frame, as in {stem}.%04d.{end}",
+            output.display()
+        )))
     }
 
     fn frames(&self, asked: &Cli) -> Result<Vec<u32>, Failure> {

@@ -53,3 +53,22 @@ fn what_is_wrong_with_a_frame_is_said_with_its_number() {
         bench.fails("convert g.%04d.obj c.%04d.hair --frames 9-3", 2).contains("first to last")
     );
 }
+
+#[test]
+fn an_animated_file_becomes_an_animated_file() {
+    let bench = on_its_way();
+    let grooms = [8, 9, 110]
+        .map(|frame| Ok::<_, tress::io::WriteError>(bench.groom(&format!("g.{frame:04}.obj"))));
+    let frames = tress::io::Frames { start: 5.0, rate: 24.0 };
+    let options = tress::io::WriteOptions::default();
+    tress::io::write_animation(bench.path("wind.abc"), frames, &options, grooms).expect("written");
+    let said = bench.done("recoil wind.abc wider.abc --radius 1.2 --elements 40 --animated");
+    assert!(said.contains("3 frames in wider.abc"), "{said}");
+    let animation = tress::io::Animation::open(bench.path("wider.abc")).expect("readable");
+    assert_eq!((animation.len(), animation.frames()), (3, frames));
+    bench.done("convert wind.abc still.%d.hair --animated");
+    assert!(bench.path("still.5.hair").exists() && bench.path("still.7.hair").exists());
+    assert!(bench.fails("convert wind.abc one.hair --animated", 2).contains("one.%04d.hair"));
+    assert!(bench.fails("convert g.0008.obj one.abc --animated", 2).contains("more than one"));
+    assert!(bench.fails("convert g.%04d.obj one.hair", 2).contains("one.%04d.hair"));
+}
