@@ -51,7 +51,8 @@ pub struct Centerline {
 /// assert!((line.length() - 13.5).abs() < 0.01 && (line.turns() - 4.5).abs() < 0.05);
 ///
 /// // Seen from the line, every point is 2 away, across.
-/// assert!(line.offsets(&coil).iter().all(|o| (o.length() - 2.0).abs() < 0.01 && o.x.abs() < 0.01));
+/// let across = |o: &DVec3| (o.length() - 2.0).abs() < 0.01 && o.x.abs() < 0.01;
+/// assert!(line.offsets(&coil).iter().all(across));
 /// # Ok::<(), tress_geometry::polyline::Defect>(())
 /// ```
 ///
@@ -67,7 +68,8 @@ pub fn centerline(points: &[DVec3]) -> Result<Centerline, Defect> {
     centerline_of_turns(points, turns)
 }
 
-/// The centerline of a strand whose number of turns is known: that of another frame of an animation.
+/// The centerline of a strand whose number of turns is known: that of another frame of an
+/// animation.
 ///
 /// Turns that are not a positive number make the strand its own centerline.
 ///

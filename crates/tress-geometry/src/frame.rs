@@ -69,8 +69,8 @@ impl Frame {
         Self { position: self.position, axes: DMat3::from_cols(t, u, t.cross(u)) }
     }
 
-    /// This frame carried to `position` and the unit tangent `t` with no turn about the curve on the
-    /// way, by the double reflection of Wang, Juettler, Zheng and Liu, "Computation of rotation
+    /// This frame carried to `position` and the unit tangent `t` with no turn about the curve on
+    /// the way, by the double reflection of Wang, Juettler, Zheng and Liu, "Computation of rotation
     /// minimizing frames", ACM TOG 27(1), 2008: in the plane between the positions, and in that
     /// which takes the reflected tangent to `t`. The error is of fourth order in the step.
     ///

@@ -1,5 +1,5 @@
-//! Makes the library of coils that ships with the crate:
-//! `cargo run -p tress-grow --example default_spectra -- crates/tress-grow/presets/default.tress-spectra`.
+//! Makes the library of coils that ships with the crate, into the file named:
+//! `cargo run -p tress-grow --example default_spectra -- default.tress-spectra`.
 
 use std::error::Error;
 
