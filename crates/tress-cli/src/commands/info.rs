@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::json;
-use tress::analysis::{Defects, GroomSummary, Quantiles, defects, summarize};
-use tress::fit::FitOptions;
+use tress::analysis::{Analysis, Defects, GroomSummary, Quantiles, defects, summarize};
 use tress::geometry::{Attributes, Column, Groom, HelixGroom, UpAxis};
 use tress::io::{Format, Model};
 
@@ -13,7 +12,7 @@ use crate::args::Everywhere;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::report::{Report, count, short, spread};
-use crate::source::{self, Curved};
+use crate::source;
 
 /// Counts, lengths, turns, coil radius, handedness, unit and problems of a groom
 #[derive(Args, Debug)]
@@ -30,20 +29,21 @@ pub(crate) fn run(args: &InfoArgs, everywhere: &Everywhere) -> Result<Report, Fa
     report.set("input", &args.input);
     report.set("format", format.description());
     report.line(format!("{} ({})", args.input.display(), format.description()));
-    let helices = match source::read(&args.input, &progress)? {
+    let model = source::read(&args.input, &progress)?;
+    progress.stage("measuring");
+    match model {
         Model::Polylines(groom) => {
             let groom = source::share(groom, everywhere);
             say_polylines(&groom, &mut report);
-            Curved::fit(&groom, &FitOptions::default(), &progress)?.helices
+            say_space(groom.unit, groom.up, &mut report);
+            say_measures(&Analysis::of(&groom).summary(), groom.unit, &mut report);
         }
         Model::Helices(helices) => {
             say_helices(&helices, &mut report);
-            helices
+            say_space(helices.unit, helices.up, &mut report);
+            say_measures(&summarize(&helices), helices.unit, &mut report);
         }
-    };
-    progress.stage("measuring");
-    say_space(helices.unit, helices.up, &mut report);
-    say_measures(&summarize(&helices), helices.unit, &mut report);
+    }
     Ok(report)
 }
 
@@ -112,7 +112,7 @@ fn say_space(unit: Option<f64>, up: Option<UpAxis>, report: &mut Report) {
     report.say("up", up);
 }
 
-fn say_measures(summary: &GroomSummary, unit: Option<f64>, report: &mut Report) {
+pub(crate) fn say_measures(summary: &GroomSummary, unit: Option<f64>, report: &mut Report) {
     report.set("summary", summary);
     report.say("length", spread(summary.length, ""));
     report.say("turns", spread(summary.turns, " a strand"));
@@ -128,9 +128,15 @@ fn say_measures(summary: &GroomSummary, unit: Option<f64>, report: &mut Report) 
     let neither = summary.strands - left - right;
     let (left, right, neither) = (count(left), count(right), count(neither));
     report.say("handedness", format!("{left} left, {right} right, {neither} neither"));
+    if 0 < summary.waves {
+        report.say("waves", format!("{} strands wave in a plane", count(summary.waves)));
+    }
+    if 0 < summary.switchbacks {
+        report.say("switchbacks", format!("{} changes of hand", count(summary.switchbacks)));
+    }
 }
 
-fn say_defects(defects: &Defects, report: &mut Report) {
+pub(crate) fn say_defects(defects: &Defects, report: &mut Report) {
     report.set("problems", defects);
     if defects.is_empty() {
         report.say("problems", "none found");

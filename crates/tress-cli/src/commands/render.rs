@@ -37,8 +37,8 @@ pub(crate) struct RenderArgs {
     /// Pixels, as one number or as in 1200x1600
     #[arg(long, default_value = "1600", value_name = "PIXELS", value_parser = parse_size)]
     pub(crate) size: (u32, u32),
-    /// Colour strands by a quantity: radius, turns, length, handedness, curvature, twist, or the
-    /// name of an attribute
+    /// Colour strands by a quantity: radius, turns, length, handedness, curvature, twist,
+    /// frequency, pitch, beta, or the name of an attribute
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) color_by: Option<String>,
     /// Hair diameter, in the groom's unit [default: the groom's own, or one that suits its size]
@@ -243,7 +243,8 @@ fn unit(of: Quantity, metres: Option<f64>) -> String {
     }
 }
 
-fn view(view: ViewArg) -> View {
+/// Where the camera stands.
+pub(crate) fn view(view: ViewArg) -> View {
     match view {
         ViewArg::Front => View::Front,
         ViewArg::Side => View::Side,
