@@ -1,9 +1,11 @@
 //! One file a command.
 
+mod analyze;
 mod armature;
 mod blend;
 mod convert;
 mod demo;
+mod diff;
 mod fit;
 mod grow;
 mod info;
@@ -27,6 +29,8 @@ use crate::report::Report;
 pub(crate) enum Command {
     Demo(demo::DemoArgs),
     Info(info::InfoArgs),
+    Analyze(analyze::AnalyzeArgs),
+    Diff(diff::DiffArgs),
     Convert(convert::ConvertArgs),
     Fit(fit::FitCommandArgs),
     Sample(sample::SampleCommandArgs),
@@ -54,6 +58,8 @@ pub(crate) fn run(command: &Command, everywhere: &Everywhere) -> Result<Report, 
         Command::Scatter(args) => scatter::run(args, everywhere),
         Command::Render(args) => render::run(args, everywhere),
         Command::Info(args) => info::run(args, everywhere),
+        Command::Analyze(args) => analyze::run(args, everywhere),
+        Command::Diff(args) => diff::run(args, everywhere),
         Command::Convert(args) => convert::run(args, everywhere),
         Command::Fit(args) => fit::run(args, everywhere),
         Command::Sample(args) => sample::run(args, everywhere),
