@@ -52,6 +52,19 @@ pub enum Error {
         points: usize,
     },
     /// A parameter without the rows that its scope asks for.
+    ///
+    /// ```
+    /// # use std::io::Cursor;
+    /// # use tress_alembic::{Archive, CurvesSample, Error, Kind, Scope};
+    /// let mut archive = Archive::new(Cursor::new(Vec::new()), "")?;
+    /// let time = archive.add_time(0.0, 1.0);
+    /// let hair = archive.add_curves(archive.top(), "hair", Kind::Linear, time)?;
+    /// let widths: (Scope, &[f32]) = (Scope::Uniform, &[0.1, 0.2]);
+    /// let sample = CurvesSample { widths: Some(widths), ..CurvesSample::default() };
+    /// let error = archive.write_curves(hair, &sample).unwrap_err();
+    /// assert!(matches!(error, Error::Rows { rows: 2, expected: 0, .. }));
+    /// # Ok::<(), Error>(())
+    /// ```
     #[error("parameter {name:?} has {rows} rows, expected {expected}")]
     Rows {
         /// The parameter.
@@ -62,9 +75,33 @@ pub enum Error {
         expected: usize,
     },
     /// A parameter that is of another type than in the sample before, or that was not in the first.
+    ///
+    /// ```
+    /// # use std::io::Cursor;
+    /// # use tress_alembic::{Archive, CurvesSample, Error, Kind, Scope};
+    /// let mut archive = Archive::new(Cursor::new(Vec::new()), "")?;
+    /// let time = archive.add_time(0.0, 1.0);
+    /// let hair = archive.add_curves(archive.top(), "hair", Kind::Linear, time)?;
+    /// let first = CurvesSample::default();
+    /// archive.write_curves(hair, &first)?;
+    /// let second = CurvesSample { widths: Some((Scope::Constant, &[0.1])), ..first };
+    /// let error = archive.write_curves(hair, &second).unwrap_err();
+    /// assert!(matches!(error, Error::Changed(name) if name == "width"));
+    /// # Ok::<(), Error>(())
+    /// ```
     #[error("parameter {0:?} is not what it was in the first sample")]
     Changed(String),
     /// An object of another archive, or samples of curves for one that is a transform.
+    ///
+    /// ```
+    /// # use std::io::Cursor;
+    /// # use tress_alembic::{Archive, CurvesSample, Error};
+    /// let mut archive = Archive::new(Cursor::new(Vec::new()), "")?;
+    /// let head = archive.add_transform(archive.top(), "head", None)?;
+    /// let error = archive.write_curves(head, &CurvesSample::default()).unwrap_err();
+    /// assert!(matches!(error, Error::NoObject));
+    /// # Ok::<(), Error>(())
+    /// ```
     #[error("the object is not in the archive, or holds no curves")]
     NoObject,
     /// The stream takes no more.

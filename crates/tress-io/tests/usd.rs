@@ -1,5 +1,6 @@
 //! USD files read and written: what the parts of a stage become, and what broken ones do.
 
+mod any_groom;
 mod breakages;
 
 use std::path::PathBuf;
@@ -7,7 +8,9 @@ use std::path::PathBuf;
 use glam::DVec3;
 use proptest::prelude::*;
 use tress_geometry::{Column, Groom, Strands, UpAxis, names};
-use tress_io::{UsdCurves, WriteOptions, usd};
+use tress_io::{Animation, Frames, UsdCurves, WriteError, WriteOptions, usd, write_animation};
+
+use any_groom::{any_groom, without_given_width};
 
 /// A stage in a folder of its own.
 fn stage(name: &str, text: &str) -> (tempfile::TempDir, PathBuf) {
@@ -227,67 +230,18 @@ fn unit_and_axis_are_read_where_they_are_and_unknown_elsewhere() {
     assert_eq!(space("metersPerUnit = 0"), (None, None));
 }
 
-/// A groom with everything that a file holds, from numbers that 32 bits hold exactly.
-fn full_groom() -> impl Strategy<Value = Groom> {
-    let number = any::<i16>().prop_map(|i| f64::from(i) / 64.0);
-    let odd = prop_oneof![
-        30 => number.clone(),
-        1 => Just(f64::INFINITY),
-        1 => Just(f64::from(f32::MIN_POSITIVE)),
-        1 => Just(-0.0),
-        1 => Just(1e30_f32.into()),
-    ];
-    (prop::collection::vec(0..6_usize, 0..8), any::<(bool, bool, bool)>()).prop_flat_map(
-        move |(counts, (is_known, has_widths, of_points))| {
-            let (points, strands) = (counts.iter().sum::<usize>(), counts.len());
-            let rows = if of_points { points } else { strands };
-            let positions = prop::collection::vec(prop::array::uniform3(odd.clone()), points);
-            let columns = prop::collection::vec(number.clone(), rows * (1 + 2 + 3 + 4 + 7));
-            let ids = prop::collection::vec(any::<i64>(), rows);
-            let counts = Just(counts);
-            (counts, positions, columns, ids).prop_map(move |(counts, positions, columns, ids)| {
-                let points = positions.into_iter().map(DVec3::from_array).collect();
-                let strands = Strands::from_counts(counts, points).expect("counts sum to points");
-                let space = (is_known.then_some(0.01), is_known.then_some(UpAxis::Z));
-                let mut groom = Groom::new(strands).in_space(space.0, space.1);
-                let mut insert = |name: &str, column| {
-                    if of_points {
-                        groom.insert_point_attribute(name, column).expect("a row a point");
-                    } else {
-                        groom.insert_strand_attribute(name, column).expect("a row a strand");
-                    }
-                };
-                insert("id", Column::Int(ids.clone()));
-                insert("small", Column::Int(ids.iter().map(|id| id >> 40).collect()));
-                let mut start = 0;
-                let names = ["width", names::ROOT_UV, names::COLOR, "four", "seven"];
-                for (name, components) in names.into_iter().zip([1, 2, 3, 4, 7]) {
-                    let end = start + rows * components;
-                    let values = columns[start..end].to_vec();
-                    start = end;
-                    if name != "width" || has_widths {
-                        insert(name, Column::Float { components, values });
-                    }
-                }
-                groom
-            })
-        },
-    )
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
     #[test]
-    fn what_is_written_is_read_back(groom in full_groom(), is_cubic: bool) {
+    fn what_is_written_is_read_back(groom in any_groom(), is_cubic: bool) {
         let kind = if is_cubic { UsdCurves::CatmullRom } else { UsdCurves::Linear };
         let (_dir, path) = stage("hair.usda", &written(&groom, kind));
-        let mut read = usd::read(&path).expect("our own file");
-        // Hair without a width gets one.
-        if groom.strand_attributes().get("width").or(groom.point_attributes().get("width")).is_none() {
-            let width = read.remove_strand_attribute("width");
-            prop_assert!(width.is_some_and(|w| w.first_components().all(|w| 0.0 < w)));
-        }
-        prop_assert_eq!(read, groom);
+        let read = usd::read(&path).expect("our text");
+        prop_assert_eq!(&without_given_width(read, &groom), &groom);
+        let (_dir, path) = stage("hair.usdc", "");
+        tress_io::write(&path, &groom, &WriteOptions { usd_curves: kind }).expect("a file");
+        let read = usd::read(&path).expect("our binary");
+        prop_assert_eq!(&without_given_width(read, &groom), &groom);
     }
 }
 
@@ -454,4 +408,40 @@ fn curves_of_text_and_of_binary_are_equal() {
     std::fs::write(&path, binary).expect("a file");
     assert_eq!(usd::read(&path).expect("binary by its contents"), from_text);
     drop(dir);
+}
+
+#[test]
+fn frames_of_a_binary_file_are_read_one_by_one() {
+    let frame = |i: usize| {
+        let points = (0..6).map(|k| DVec3::new(f64::from(k), i as f64, 0.5)).collect();
+        // The fourth frame has other strands.
+        let counts = if i == 3 { vec![2, 4] } else { vec![3, 3] };
+        let mut groom = Groom::new(Strands::from_counts(counts, points).expect("six points"));
+        groom.insert_strand_attribute("id", Column::Int(vec![7, 8])).expect("two rows");
+        groom.insert_strand_attribute("width", Column::scalar(vec![0.5; 2])).expect("two rows");
+        groom.in_space(Some(0.01), Some(UpAxis::Z))
+    };
+    let (_dir, path) = stage("wind.usdc", "");
+    let frames = Frames { start: 101.0, rate: 25.0 };
+    let grooms = (0..5).map(|i| Ok::<_, WriteError>(frame(i)));
+    write_animation(&path, frames, &WriteOptions::default(), grooms).expect("a file");
+    let animation = Animation::open(&path).expect("our own file");
+    assert_eq!((animation.len(), animation.frames()), (5, frames));
+    for i in 0..5 {
+        assert_eq!(animation.read(i).expect("a frame"), frame(i), "frame {i}");
+    }
+    assert_eq!(usd::read(&path).expect("the first frame"), frame(0));
+}
+
+#[test]
+fn a_text_that_is_animated_has_frames() {
+    let text = "#usda 1.0\n(timeCodesPerSecond = 30)\ndef BasisCurves \"hair\" {
+        int[] curveVertexCounts = [1]
+        uniform token type = \"linear\"
+        point3f[] points.timeSamples = { 2: [(0, 0, 0)], 3: [(1, 0, 0)], 4: [(5, 0, 0)] }
+    }";
+    let (_dir, path) = stage("hair.usda", text);
+    let animation = Animation::open(&path).expect("three frames");
+    assert_eq!((animation.len(), animation.frames()), (3, Frames { start: 2.0, rate: 30.0 }));
+    assert_eq!(animation.read(9).expect("the last").strands().points(), [DVec3::X * 5.0]);
 }

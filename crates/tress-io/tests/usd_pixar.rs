@@ -6,7 +6,7 @@ use std::process::Command;
 
 use glam::DVec3;
 use tress_geometry::{Column, Groom, Strands, UpAxis};
-use tress_io::{UsdCurves, WriteOptions};
+use tress_io::{Frames, UsdCurves, WriteError, WriteOptions, write_animation};
 
 /// Prints what the file says, one fact a line, numbers in full.
 const PRINT: &str = r#"
@@ -55,6 +55,9 @@ fn print(path: &Path) -> Vec<String> {
     String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()
 }
 
+/// A hair's width in centimetres, which all strands are given that have none.
+const GIVEN: &str = "constant 0.009999999776482582";
+
 fn groom() -> Groom {
     let points: Vec<DVec3> =
         (0..60).map(|i| DVec3::new(0.1, 1e-7, -1.0 / 3.0) * f64::from(i)).collect();
@@ -76,12 +79,14 @@ fn pixar_reads_what_was_written() {
         return;
     }
     let mut groom = groom();
-    for (kind, expected, widths) in [
-        (UsdCurves::Linear, "type linear bezier nonperiodic", "constant 0.009999999776482582"),
-        (UsdCurves::CatmullRom, "type cubic catmullRom pinned", "uniform 0.5 1.0 2.0"),
+    for (name, kind, expected, widths) in [
+        ("a.usda", UsdCurves::Linear, "type linear bezier nonperiodic", GIVEN),
+        ("a.usdc", UsdCurves::Linear, "type linear bezier nonperiodic", "uniform 0.5 1.0 2.0"),
+        ("a.usda", UsdCurves::CatmullRom, "type cubic catmullRom pinned", "uniform 0.5 1.0 2.0"),
+        ("a.usdc", UsdCurves::CatmullRom, "type cubic catmullRom pinned", "uniform 0.5 1.0 2.0"),
     ] {
         let dir = tempfile::tempdir().expect("a folder");
-        let path = dir.path().join("hair.usda");
+        let path = dir.path().join(name);
         tress_io::write(&path, &groom, &WriteOptions { usd_curves: kind }).expect("a file");
         let facts = print(&path);
         let fact = |name: &str| {
@@ -110,4 +115,42 @@ fn pixar_reads_what_was_written() {
         let width = Column::scalar(vec![0.5, 1.0, 2.0]);
         groom.insert_strand_attribute("width", width).expect("a row a strand");
     }
+}
+
+/// Prints the times and, at each, the counts and points.
+const PRINT_FRAMES: &str = r#"
+import sys
+from pxr import Usd, UsdGeom
+stage = Usd.Stage.Open(sys.argv[1])
+print(stage.GetStartTimeCode(), stage.GetEndTimeCode(), stage.GetTimeCodesPerSecond())
+curves = UsdGeom.BasisCurves(stage.GetPrimAtPath("/groom/strands"))
+for time in curves.GetPointsAttr().GetTimeSamples():
+    counts = curves.GetCurveVertexCountsAttr().Get(time)
+    print(time, *counts, *[x for p in curves.GetPointsAttr().Get(time) for x in p])
+"#;
+
+#[test]
+fn pixar_reads_every_frame_of_a_binary_file() {
+    if !has_pixar() {
+        return;
+    }
+    let dir = tempfile::tempdir().expect("a folder");
+    let path = dir.path().join("wind.usdc");
+    let frame = |i: u8| {
+        let counts = if i == 2 { vec![1, 1] } else { vec![2] };
+        let points = vec![DVec3::ZERO, DVec3::splat(i.into())];
+        Ok::<_, WriteError>(Groom::new(Strands::from_counts(counts, points).expect("two points")))
+    };
+    let frames = Frames { start: 1.0, rate: 24.0 };
+    let grooms = (0..3).map(frame);
+    write_animation(&path, frames, &WriteOptions::default(), grooms).expect("a file");
+    let output = Command::new("python3")
+        .args(["-c", PRINT_FRAMES])
+        .arg(&path)
+        .output()
+        .expect("python3 runs");
+    let lines = String::from_utf8_lossy(&output.stdout).into_owned();
+    let expected = "1.0 3.0 24.0\n1.0 2 0.0 0.0 0.0 0.0 0.0 0.0\n2.0 2 0.0 0.0 0.0 1.0 1.0 1.0\n\
+                    3.0 1 1 0.0 0.0 0.0 2.0 2.0 2.0\n";
+    assert_eq!(lines, expected, "{}", String::from_utf8_lossy(&output.stderr));
 }

@@ -46,7 +46,13 @@ pub enum ReadError {
         /// Bytes that are there.
         left: u64,
     },
-    /// Something that makes no sense.
+    /// Something that makes no sense: here a root group that holds nothing.
+    ///
+    /// ```
+    /// # use tress_alembic::{ReadError, Reader};
+    /// let empty = b"Ogawa\xff\x00\x01\0\0\0\0\0\0\0\0";
+    /// assert!(matches!(Reader::new(empty), Err(ReadError::Broken { .. })));
+    /// ```
     #[error("{what} cannot be made sense of")]
     Broken {
         /// Where.
@@ -54,7 +60,7 @@ pub enum ReadError {
         /// What.
         what: &'static str,
     },
-    /// A property without the sample asked for.
+    /// A property without the sample asked for, as that of curves that were never written.
     #[error("property {0:?} has no sample")]
     NoSample(String),
 }

@@ -17,8 +17,8 @@ use super::Placement;
 
 /// Samples of the curve for each point placed; a segment's miss is then known to a hundredth.
 const FINENESS: usize = 12;
-/// How often misses are evened out. They settle within 5.
-const ROUNDS: usize = 8;
+/// How often misses are evened out. On coils they settle within 10.
+const ROUNDS: usize = 12;
 /// The least density, as a share of the mean: straight stretches keep a few points.
 const LEAST_DENSITY: f64 = 0.05;
 /// A corner sharper than this is not moved by as much as a coil's.
@@ -92,24 +92,22 @@ impl Curve {
         let mut density = self.curvature_density();
         let mut best = self.placed(&self.spread(count, &density));
         for _ in 0..ROUNDS {
-            let ends = self.spread(count, &density);
-            let on_it = self.placed(&ends);
-            let misses = self.misses(&ends, &on_it.points);
-            let outside = self.moved_out(&ends, &misses);
-            for placed in [on_it, outside] {
+            let places = self.spread(count, &density);
+            let outside = self.moved_out(&places);
+            let errors = self.errors(&places, &outside);
+            let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+            for placed in [self.placed(&places), self.measured(&places, outside)] {
                 if placed.error < best.error {
                     best = placed;
                 }
             }
-            let sizes: Vec<f64> = misses.iter().map(|miss| miss.length()).collect();
-            let mean = sizes.iter().sum::<f64>() / sizes.len() as f64;
             if mean <= 0.0 {
                 break;
             }
-            for (pair, size) in ends.windows(2).zip(sizes) {
-                // The miss goes with the square of the length; half a step each round is stable.
-                let change = (size / mean).clamp(0.1, 10.0).powf(0.25);
-                density[pair[0]..pair[1]].iter_mut().for_each(|d| *d *= change);
+            for (pair, error) in places.windows(2).zip(errors) {
+                // A miss goes with the square of the length; half a step each round is stable.
+                let change = (error / mean).clamp(0.1, 10.0).powf(0.25);
+                density[split(pair[0]).0..split(pair[1]).0].iter_mut().for_each(|d| *d *= change);
             }
         }
         best
@@ -137,8 +135,8 @@ impl Curve {
         roots.into_iter().map(|root| root.max(least)).collect()
     }
 
-    /// The samples to put `count` points at, ascending, so that the density between them is even.
-    fn spread(&self, count: usize, density: &[f64]) -> Vec<usize> {
+    /// Where between samples to put `count` points, ascending, so that the density is even.
+    fn spread(&self, count: usize, density: &[f64]) -> Vec<f64> {
         let mut sums = Vec::with_capacity(density.len());
         let mut sum = 0.0;
         sums.push(sum);
@@ -146,73 +144,88 @@ impl Curve {
             sum += density[i] * (pair[1] - pair[0]);
             sums.push(sum);
         }
-        let last = self.points.len() - 1;
-        let mut ends: Vec<usize> = Vec::with_capacity(count);
-        for k in 0..count {
+        let place = |k: usize| {
             let target = sum * k as f64 / (count - 1) as f64;
-            let behind = sums.partition_point(|&s| s < target);
-            let before = behind.saturating_sub(1);
-            let nearer = if target - sums[before] < sums[behind.min(last)] - target {
-                before
-            } else {
-                behind.min(last)
-            };
-            // Each point has a sample of its own: there are many more samples than points.
-            let least = ends.last().map_or(0, |end| end + 1);
-            ends.push(nearer.clamp(least, last - (count - 1 - k)));
-        }
-        ends[count - 1] = last;
-        ends
+            let (sample, between) = polyline::place(&sums, target);
+            sample as f64 + between
+        };
+        let mut places: Vec<f64> = (0..count).map(place).collect();
+        places[0] = 0.0;
+        places[count - 1] = (self.points.len() - 1) as f64;
+        places
     }
 
-    /// Points at these samples.
-    fn placed(&self, ends: &[usize]) -> Placed {
-        self.measured(ends, ends.iter().map(|&end| self.points[end]).collect())
+    /// The point at a place between samples.
+    fn at(&self, place: f64) -> DVec3 {
+        let (i, between) = split(place);
+        let here = self.points[i];
+        self.points.get(i + 1).map_or(here, |next| here.lerp(*next, between))
     }
 
-    /// Where each segment misses the curve by most: from the segment to the curve.
-    fn misses(&self, ends: &[usize], points: &[DVec3]) -> Vec<DVec3> {
-        let segments = ends.windows(2).zip(points.windows(2));
-        segments
-            .map(|(ends, segment)| {
-                let samples = &self.points[ends[0]..=ends[1]];
-                let miss = |&sample: &DVec3| sample - nearest(segment[0], segment[1], sample);
-                let longer =
-                    |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());
-                samples.iter().map(miss).max_by(longer).unwrap_or(DVec3::ZERO)
-            })
-            .collect()
+    /// The samples from one place to another, and the points at both.
+    fn samples(&self, from: f64, to: f64) -> impl Iterator<Item = DVec3> {
+        let between = split(from).0 + 1..split(to).0 + 1;
+        let inner = self.points.get(between).unwrap_or_default().iter().copied();
+        [self.at(from), self.at(to)].into_iter().chain(inner)
     }
 
-    /// Points at these samples, all but the first and the last moved out at bends.
-    fn moved_out(&self, ends: &[usize], misses: &[DVec3]) -> Placed {
-        let mut points: Vec<DVec3> = ends.iter().map(|&end| self.points[end]).collect();
+    /// Points at these places.
+    fn placed(&self, places: &[f64]) -> Placed {
+        self.measured(places, places.iter().map(|&place| self.at(place)).collect())
+    }
+
+    /// Points at these places, all but the first and the last moved out at bends.
+    fn moved_out(&self, places: &[f64]) -> Vec<DVec3> {
+        let on_it: Vec<DVec3> = places.iter().map(|&place| self.at(place)).collect();
+        let pairs = places.windows(2).zip(on_it.windows(2));
+        let misses: Vec<DVec3> =
+            pairs.map(|(ends, segment)| self.miss(ends[0], ends[1], segment)).collect();
+        let mut points = on_it.clone();
         for i in 1..points.len() - 1 {
-            let [before, here, behind] = [i - 1, i, i + 1].map(|k| self.points[ends[k]]);
+            let (before, here, behind) = (on_it[i - 1], on_it[i], on_it[i + 1]);
             let half_turn = 0.5 * (here - before).angle_between(behind - here);
             let cosine = half_turn.cos().max(LEAST_COSINE);
-            points[i] += 0.5 * (misses[i - 1] + misses[i]) / (2.0 * cosine);
+            // The misses beside a point lean from its direction by half its turn, their mean is
+            // shorter than they are by the cosine.
+            points[i] += 0.5 * (misses[i - 1] + misses[i]) / (2.0 * cosine * cosine);
         }
-        self.measured(ends, points)
+        points
     }
 
-    /// Points that belong to these samples, with how far the curve is from their segments.
-    fn measured(&self, ends: &[usize], points: Vec<DVec3>) -> Placed {
-        let mut error: f64 = 0.0;
-        for (i, pair) in ends.windows(2).enumerate() {
+    /// Where a segment misses the curve by most: from the segment to the curve.
+    fn miss(&self, from: f64, to: f64, segment: &[DVec3]) -> DVec3 {
+        let miss = |sample: DVec3| sample - nearest(segment[0], segment[1], sample);
+        let longer = |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());
+        self.samples(from, to).map(miss).max_by(longer).unwrap_or(DVec3::ZERO)
+    }
+
+    /// How far the part of the curve that belongs to each segment is from the segments near it.
+    fn errors(&self, places: &[f64], points: &[DVec3]) -> Vec<f64> {
+        let error = |(i, pair): (usize, &[f64])| {
             // Near its ends the neighbours of a segment may be nearer.
             let near = &points[i.saturating_sub(1)..(i + 3).min(points.len())];
-            for &sample in &self.points[pair[0]..=pair[1]] {
+            let distance = |sample: DVec3| {
                 let distances =
                     near.windows(2).map(|s| nearest(s[0], s[1], sample).distance(sample));
-                error = error.max(distances.fold(f64::INFINITY, f64::min));
-            }
-        }
-        let row = |&end: &usize| {
-            (end / self.per_segment, (end % self.per_segment) as f64 / self.per_segment as f64)
+                distances.fold(f64::INFINITY, f64::min)
+            };
+            self.samples(pair[0], pair[1]).map(distance).fold(0.0, f64::max)
         };
-        Placed { points, rows: ends.iter().map(row).collect(), error }
+        places.windows(2).enumerate().map(error).collect()
     }
+
+    /// Points that belong to these places, with how far the curve is from their segments.
+    fn measured(&self, places: &[f64], points: Vec<DVec3>) -> Placed {
+        let error = self.errors(places, &points).into_iter().fold(0.0, f64::max);
+        let row = |&place: &f64| split(place / self.per_segment as f64);
+        Placed { points, rows: places.iter().map(row).collect(), error }
+    }
+}
+
+/// A place as an index and how far it is to the next.
+#[expect(clippy::cast_possible_truncation, reason = "the whole part of what is not negative")]
+fn split(place: f64) -> (usize, f64) {
+    (place as usize, place.fract())
 }
 
 /// The point of a segment that is nearest.

@@ -298,7 +298,9 @@ fn counted_integers(values: &[i32]) -> Vec<u8> {
 /// written in full (code 3).
 fn integers(values: &[i32]) -> Vec<u8> {
     let mut coded = 0_i32.to_le_bytes().to_vec();
-    coded.extend(std::iter::repeat_n(0xff, values.len().div_ceil(4)));
+    // The bits behind the last integer stay clear: openusd 0.6 reads them too.
+    let codes = values.chunks(4).map(|four| 0xff_u8 >> (8 - 2 * four.len()));
+    coded.extend(codes);
     let mut before = 0_i32;
     for &value in values {
         coded.extend(value.wrapping_sub(before).to_le_bytes());
