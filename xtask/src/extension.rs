@@ -13,10 +13,8 @@ pub(crate) fn run() -> Result<(), String> {
     let folder = root().join("target/extension");
     let stage = folder.join("tress");
     let wheels = stage.join("wheels");
-    if stage.exists() {
-        fs::remove_dir_all(&stage).map_err(|error| broken(&stage, &error))?;
-    }
-    fs::create_dir_all(&wheels).map_err(|error| broken(&wheels, &error))?;
+    empty(&stage)?;
+    empty(&wheels)?;
     let wheel = build_wheel(&wheels)?;
     copy_modules(&root().join("blender/addon"), &stage)?;
     copy(&root().join("LICENSE"), &stage.join("LICENSE"))?;
@@ -33,14 +31,22 @@ fn python() -> std::ffi::OsString {
     env::var_os("PYTHON").unwrap_or_else(|| "python3".into())
 }
 
-/// Builds the wheel with maturin into an empty folder; gives its file name.
-fn build_wheel(wheels: &Path) -> Result<String, String> {
+/// Builds the wheel of the Python package with maturin into an empty folder; gives its file name.
+pub(crate) fn build_wheel(wheels: &Path) -> Result<String, String> {
     let mut maturin = Command::new(python());
     maturin.args(["-m", "maturin", "build", "--release", "--out"]).arg(wheels);
     call(maturin.current_dir(root()), "maturin (pip install maturin)")?;
     let mut found = fs::read_dir(wheels).map_err(|error| broken(wheels, &error))?;
     let wheel = found.find_map(|entry| entry.ok()?.file_name().into_string().ok());
     wheel.ok_or_else(|| format!("maturin left no wheel in {}", wheels.display()))
+}
+
+/// Makes a folder with nothing in it.
+pub(crate) fn empty(folder: &Path) -> Result<(), String> {
+    if folder.exists() {
+        fs::remove_dir_all(folder).map_err(|error| broken(folder, &error))?;
+    }
+    fs::create_dir_all(folder).map_err(|error| broken(folder, &error))
 }
 
 /// Copies the Python modules of the add-on.

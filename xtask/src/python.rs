@@ -4,6 +4,7 @@ use std::env;
 use std::ffi::OsString;
 use std::process::{Command, Stdio};
 
+use crate::extension::{build_wheel, empty};
 use crate::{root, say};
 
 /// What building and testing need beside Python itself.
@@ -19,15 +20,13 @@ pub(crate) fn test() -> Result<(), String> {
         ));
         return Ok(());
     };
-    let folder = std::path::absolute(root().join("target/python"))
-        .map_err(|error| format!("target/python: {error}"))?;
+    let (wheels, folder) = (root().join("target/wheels"), root().join("target/python"));
+    empty(&wheels)?;
+    let wheel = wheels.join(build_wheel(&wheels)?);
     let mut install = Command::new(&python);
-    install
-        .args(["-m", "pip", "install", "--quiet", "--no-index", "--no-deps"])
-        .args(["--no-build-isolation", "--upgrade", "--target"])
-        .arg(&folder)
-        .arg(".");
-    call(install.current_dir(root()))?;
+    install.args(["-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--upgrade"]);
+    call(install.arg("--target").arg(&folder).arg(wheel))?;
+    let folder = std::path::absolute(&folder).map_err(|error| format!("target/python: {error}"))?;
     let mut tests = Command::new(&python);
     tests.args(["-m", "pytest", "crates/tress-python/tests"]).env("PYTHONPATH", &folder);
     call(tests.current_dir(root()))
