@@ -5,6 +5,7 @@ mod droop;
 mod growing;
 mod posing;
 mod ruffling;
+mod switchback;
 
 use std::fs;
 use std::path::PathBuf;
@@ -21,12 +22,13 @@ use crate::grooms::root;
 use crate::metric::say;
 
 /// What is pictured, and what makes the pictures of it.
-const MAKERS: [(&str, fn() -> Outcome); 6] = [
+const MAKERS: [(&str, fn() -> Outcome); 7] = [
     ("demo", demo),
     ("ruffling", ruffling::make),
     ("blending", blending::make),
     ("posing", posing::make),
     ("droop", droop::make),
+    ("switchback", switchback::make),
     ("growing", growing::make),
 ];
 

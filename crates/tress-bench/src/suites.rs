@@ -6,6 +6,7 @@ mod formats;
 mod growing;
 mod pictures;
 mod sculpting;
+mod switchback;
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -20,13 +21,14 @@ struct Suite {
     run: fn(&mut Figures) -> Outcome,
 }
 
-const SUITES: [Suite; 6] = [
+const SUITES: [Suite; 7] = [
     Suite { names: fitting::NAMES, run: fitting::run },
     Suite { names: droop::NAMES, run: droop::run },
     Suite { names: formats::NAMES, run: formats::run },
     Suite { names: growing::NAMES, run: growing::run },
     Suite { names: pictures::NAMES, run: pictures::run },
     Suite { names: sculpting::NAMES, run: sculpting::run },
+    Suite { names: switchback::NAMES, run: switchback::run },
 ];
 
 /// Runs the suites that have a figure whose name begins with one of the arguments, or all.

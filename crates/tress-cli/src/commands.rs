@@ -17,6 +17,7 @@ mod sample;
 mod scatter;
 mod sculpt;
 mod spectra;
+mod switchback;
 
 use clap::Subcommand;
 
@@ -42,6 +43,7 @@ pub(crate) enum Command {
     Grow(grow::GrowArgs),
     Spectra(spectra::SpectraArgs),
     Scatter(scatter::ScatterArgs),
+    Switchback(switchback::SwitchbackArgs),
     Render(render::RenderArgs),
     Merge(merge::MergeArgs),
 }
@@ -56,6 +58,7 @@ pub(crate) fn run(command: &Command, everywhere: &Everywhere) -> Result<Report, 
         Command::Grow(args) => grow::run(args, everywhere),
         Command::Spectra(args) => spectra::run(args, everywhere),
         Command::Scatter(args) => scatter::run(args, everywhere),
+        Command::Switchback(args) => switchback::run(args, everywhere),
         Command::Render(args) => render::run(args, everywhere),
         Command::Info(args) => info::run(args, everywhere),
         Command::Analyze(args) => analyze::run(args, everywhere),

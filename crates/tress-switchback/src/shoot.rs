@@ -26,6 +26,9 @@ const FURTHER: f64 = 0.2;
 /// Change of the number by which its effect is measured.
 const NUDGE: f64 = 1e-7;
 
+/// Iterations at the last distance that make do with the response of the distance before.
+const CARRIED: u32 = 3;
+
 /// Growing part at the last distance, next to a decaying one of `e^-12` (6e-6).
 const DONE: f64 = 1e-8;
 
@@ -59,20 +62,27 @@ impl Half {
     ) -> Option<(f64, Self)> {
         let mut half = Self { tail, deviation: [0.0; 2], length: 0.0, steps: Vec::new() };
         let mut number = start;
+        let mut response = [0.0; 2];
         let mut iterations = 0;
         for (i, folds) in DISTANCES.iter().enumerate() {
             let distance = folds / tail.decay();
             let last = i + 1 == DISTANCES.len();
+            // So far out the equations are linear: the response grows as a deviation does.
+            response = tail.grow_by(response, distance - half.length);
+            let mut carried = if last { CARRIED } else { 0 };
             loop {
-                let nudged = half.walk(material, &middle(number + NUDGE), distance)?;
                 let end = half.walk(material, &middle(number), distance)?;
                 let (grown, decaying) = (tail.growing(&end), tail.decaying(&end));
                 if last && size(grown) < DONE {
                     half.deviation = decaying;
                     return Some((number, half));
                 }
-                let response = tail.growing(&nudged);
-                let response = [0, 1].map(|i| (response[i] - grown[i]) / NUDGE);
+                if carried == 0 {
+                    let nudged = half.walk(material, &middle(number + NUDGE), distance)?;
+                    let nudged = tail.growing(&nudged);
+                    response = [0, 1].map(|i| (nudged[i] - grown[i]) / NUDGE);
+                }
+                carried = carried.saturating_sub(1);
                 number -= dot(grown, response) / dot(response, response);
                 iterations += 1;
                 if MOST_ITERATIONS < iterations {

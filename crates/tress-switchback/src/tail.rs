@@ -112,6 +112,11 @@ impl Tail {
     pub(crate) fn decay_by(&self, deviation: Deviation, s: f64) -> Deviation {
         flow(deviation, s, self.sum, self.product)
     }
+
+    /// A growing deviation `s` further on.
+    pub(crate) fn grow_by(&self, deviation: Deviation, s: f64) -> Deviation {
+        flow(deviation, s, -self.sum, self.product)
+    }
 }
 
 /// The solution of `x'' + sum x' + product x = 0` after `s`.

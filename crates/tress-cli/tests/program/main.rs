@@ -3,6 +3,7 @@
 mod bench;
 mod growing;
 mod sequence;
+mod switchback;
 
 use std::fs;
 use std::path::Path;
