@@ -11,7 +11,7 @@
 //! | [`sample`] | super-helices to polylines, as dense as [`Sampling`] says |
 //! | [`HelixArc`] | the helix arc between two points with given tangents |
 //! | [`float_points`], [`float_tangent`] | what makes such an arc possible |
-//! | [`centerline`], [`Centerline`] | the line that a strand coils about, and the strand seen from it |
+//! | [`centerline`], [`Centerline`] | the line a strand coils about, and the strand seen from it |
 //! | [`Spectra`] | a library of coils, as spectra of their offsets from their centerlines |
 //! | [`Spline`] | the smooth curve through a polyline's points |
 //!
