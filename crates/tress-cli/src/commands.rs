@@ -8,6 +8,7 @@ mod demo;
 mod diff;
 mod fit;
 mod grow;
+mod helicoid;
 mod info;
 mod merge;
 mod recoil;
@@ -44,6 +45,7 @@ pub(crate) enum Command {
     Spectra(spectra::SpectraArgs),
     Scatter(scatter::ScatterArgs),
     Switchback(switchback::SwitchbackArgs),
+    Helicoid(helicoid::HelicoidArgs),
     Render(render::RenderArgs),
     Merge(merge::MergeArgs),
 }
@@ -59,6 +61,7 @@ pub(crate) fn run(command: &Command, everywhere: &Everywhere) -> Result<Report, 
         Command::Spectra(args) => spectra::run(args, everywhere),
         Command::Scatter(args) => scatter::run(args, everywhere),
         Command::Switchback(args) => switchback::run(args, everywhere),
+        Command::Helicoid(args) => helicoid::run(args, everywhere),
         Command::Render(args) => render::run(args, everywhere),
         Command::Info(args) => info::run(args, everywhere),
         Command::Analyze(args) => analyze::run(args, everywhere),

@@ -2,6 +2,7 @@
 
 mod bench;
 mod growing;
+mod helicoid;
 mod sequence;
 mod switchback;
 
