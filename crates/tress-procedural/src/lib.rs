@@ -11,12 +11,14 @@
 mod chain;
 mod even;
 mod file;
+pub mod fit;
 mod functions;
 mod groom;
 mod instancing;
 mod noise;
 mod numbers;
 mod operators;
+pub mod synthetic;
 
 pub use chain::{Bound, Chain, ChainError, Gradients};
 pub use even::{EvenError, EvenStrands};

@@ -1,0 +1,26 @@
+//! Backward: a procedural groom for strands that have none [IPG 5].
+//!
+//! The stages, each a module with its mathematics: guides are clustered and smoothed, strands learn
+//! their instancing weights, guides are refined, operators find their parameters, and last the
+//! random numbers of single strands. [`Fitter`] runs them one at a time, so that a fit can be
+//! watched, stopped and taken up again.
+
+mod clusters;
+mod correlation;
+mod fitter;
+mod flaws;
+mod guides;
+mod heat;
+mod parameters;
+mod refine_numbers;
+mod slices;
+mod weights;
+
+pub use clusters::{Initial, InitialError, initialize, medoids};
+pub use fitter::{Fitter, FitterError, Progress, Record, Stage, StageOptions};
+pub use flaws::{FlawOptions, Flaws, find_flaws};
+pub use guides::{GuideOptions, refine_guides};
+pub use heat::Smoothing;
+pub use parameters::{LossError, ParameterOptions, ParametersError, Watch, fit_parameters};
+pub use refine_numbers::{NumberOptions, refine_numbers};
+pub use weights::fit_weights;

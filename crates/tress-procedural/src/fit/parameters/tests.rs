@@ -1,0 +1,65 @@
+//! Parameters come back when guides are known, from starts that are far off.
+
+use super::*;
+use crate::synthetic::known;
+use crate::{Clump, Frizz};
+
+fn quick() -> ParameterOptions {
+    ParameterOptions { strands: 600, slices: 24, ..ParameterOptions::default() }
+}
+
+/// The groom to be found: the known one's guides, other numbers, parameters far off.
+fn begun(style: usize) -> (ProceduralGroom, EvenStrands, Vec<Operator>) {
+    let known = known(style, 0.05).expect("a known groom");
+    let targets = known.groom.build().expect("a sound groom");
+    let mut groom = known.groom.clone();
+    groom.chain = known.start;
+    groom.seed = 77;
+    groom.numbers.clear();
+    groom.draw_missing();
+    (groom, targets, known.groom.chain.operators)
+}
+
+#[test]
+fn scale_clump_and_frizz_are_found() {
+    let (mut groom, targets, truth) = begun(4);
+    let sound: Vec<usize> = (0..targets.len()).collect();
+    let mut losses = Vec::new();
+    let mut watch = |loss, _: &[Operator]| losses.push(loss);
+    let last =
+        fit_parameters(&mut groom, &targets, &sound, &quick(), &mut watch).expect("finite losses");
+    assert!(last < 0.05 * losses[0], "{last} from {}", losses[0]);
+    for (found, truth) in groom.chain.operators.iter().zip(&truth) {
+        for (found, truth) in found.values().into_iter().zip(truth.values()) {
+            assert!((found / truth - 1.0).abs() < 0.2, "{found} against {truth}");
+        }
+    }
+}
+
+#[test]
+fn a_loss_that_is_not_a_number_leaves_the_last_good_parameters() {
+    let (mut groom, mut targets, _) = begun(4);
+    targets.strand_mut(0)[50].x = f64::NAN;
+    let before = groom.chain.clone();
+    let sound: Vec<usize> = (0..targets.len()).collect();
+    let error = fit_parameters(&mut groom, &targets, &sound, &quick(), &mut |_, _| {});
+    assert!(matches!(error, Err(ParametersError::Loss(_))), "{error:?}");
+    assert_eq!(groom.chain, before);
+}
+
+#[test]
+fn targets_of_another_groom_are_refused() {
+    let (mut groom, targets, _) = begun(4);
+    let fewer = targets.select(&[0, 1]);
+    let error = fit_parameters(&mut groom, &fewer, &[0], &quick(), &mut |_, _| {});
+    assert!(matches!(error, Err(ParametersError::Targets { given: 2, .. })));
+}
+
+#[test]
+fn sizes_of_nothing_begin_at_a_part_of_the_length() {
+    let mut operators =
+        vec![Operator::Frizz(Frizz::default()), Operator::Clump(Clump { profile: 0.0 })];
+    begin(&mut operators, 20.0);
+    assert_eq!(operators[0], Operator::Frizz(Frizz { frequency: 0.5, amplitude: 0.2 }));
+    assert_eq!(operators[1], Operator::Clump(Clump { profile: 0.0 }));
+}
