@@ -7,6 +7,7 @@ mod convert;
 mod demo;
 mod diff;
 mod fit;
+mod groom;
 mod grow;
 mod helicoid;
 mod info;
@@ -19,6 +20,8 @@ mod scatter;
 mod sculpt;
 mod spectra;
 mod switchback;
+
+use std::path::Path;
 
 use clap::Subcommand;
 
@@ -42,12 +45,32 @@ pub(crate) enum Command {
     Armature(armature::ArmatureArgs),
     Sculpt(sculpt::SculptArgs),
     Grow(grow::GrowArgs),
+    Groom(groom::GroomArgs),
     Spectra(spectra::SpectraArgs),
     Scatter(scatter::ScatterArgs),
     Switchback(switchback::SwitchbackArgs),
     Helicoid(helicoid::HelicoidArgs),
     Render(render::RenderArgs),
     Merge(merge::MergeArgs),
+}
+
+impl Command {
+    /// The file that a command writes, if it is one.
+    pub(crate) fn output(&self) -> Option<&Path> {
+        match self {
+            Self::Convert(args) => Some(&args.output),
+            Self::Fit(args) => Some(&args.output),
+            Self::Sample(args) => Some(&args.output),
+            Self::Ruffle(args) => Some(&args.output),
+            Self::Blend(args) => Some(&args.output),
+            Self::Recoil(args) => Some(&args.output),
+            Self::Armature(args) => Some(&args.output),
+            Self::Sculpt(args) => Some(&args.output),
+            Self::Grow(args) => Some(&args.output),
+            Self::Render(args) => Some(&args.output),
+            _ => None,
+        }
+    }
 }
 
 /// Runs a command.
@@ -58,6 +81,7 @@ pub(crate) fn run(command: &Command, everywhere: &Everywhere) -> Result<Report, 
         Command::Armature(args) => armature::run(args, everywhere),
         Command::Sculpt(args) => sculpt::run(args, everywhere),
         Command::Grow(args) => grow::run(args, everywhere),
+        Command::Groom(args) => groom::run(args, everywhere),
         Command::Spectra(args) => spectra::run(args, everywhere),
         Command::Scatter(args) => scatter::run(args, everywhere),
         Command::Switchback(args) => switchback::run(args, everywhere),

@@ -43,6 +43,11 @@ impl Progress {
         self.bar.inc(more as u64);
     }
 
+    /// What the stage is doing now.
+    pub(crate) fn say(&self, message: impl Into<String>) {
+        self.bar.set_message(message.into());
+    }
+
     fn begin(&self, template: &str, message: impl Into<String>) {
         let style = ProgressStyle::with_template(template);
         self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));

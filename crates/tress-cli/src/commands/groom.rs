@@ -1,0 +1,37 @@
+//! `tress groom`: procedural grooms, built, edited and found.
+
+mod build;
+mod curves;
+mod edit;
+mod fit;
+
+use clap::{Args, Subcommand};
+
+use crate::args::Everywhere;
+use crate::failure::Failure;
+use crate::report::Report;
+
+/// Guides and operators to strands, and strands to guides and operators
+///
+/// A procedural groom is a .ron file that people edit, with a .safetensors file beside it that
+/// holds guides, roots and random numbers.
+#[derive(Args, Debug)]
+pub(crate) struct GroomArgs {
+    #[command(subcommand)]
+    command: GroomCommand,
+}
+
+#[derive(Debug, Subcommand)]
+enum GroomCommand {
+    Build(build::BuildArgs),
+    Edit(edit::EditArgs),
+    Fit(fit::GroomFitArgs),
+}
+
+pub(crate) fn run(args: &GroomArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
+    match &args.command {
+        GroomCommand::Build(args) => build::run(args, everywhere),
+        GroomCommand::Edit(args) => edit::run(args, everywhere),
+        GroomCommand::Fit(args) => fit::run(args, everywhere),
+    }
+}

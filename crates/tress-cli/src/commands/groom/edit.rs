@@ -1,0 +1,92 @@
+//! `tress groom edit`: parameters of a procedural groom changed from the command line.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::Args;
+use tress::procedural::ProceduralGroom;
+
+use crate::args::Everywhere;
+use crate::failure::Failure;
+use crate::report::{Report, short};
+use crate::target;
+
+/// Change parameters of a procedural groom
+///
+/// The same can be done by hand in the .ron file, and more: operators added, taken away or put in
+/// another order.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  tress groom edit groom.ron tighter.ron --set curl.radius=0.4 --set curl.frequency=0.3
+  tress groom edit groom.ron smooth.ron --set frizz.amplitude=0")]
+pub(crate) struct EditArgs {
+    /// The procedural groom, .ron
+    pub(crate) groom: PathBuf,
+    /// The procedural groom to write, .ron
+    pub(crate) output: PathBuf,
+    /// A parameter and its value; of the first operator of that name
+    #[arg(long, value_name = "OPERATOR.PARAMETER=X", required = true)]
+    pub(crate) set: Vec<Setting>,
+}
+
+/// `curl.radius=0.4`
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Setting {
+    operator: String,
+    parameter: String,
+    value: f64,
+}
+
+impl FromStr for Setting {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parts = text.split_once('=').and_then(|(name, value)| {
+            let (operator, parameter) = name.split_once('.')?;
+            Some((operator, parameter, value.trim().parse().ok()?))
+        });
+        match parts {
+            Some((operator, parameter, value)) => {
+                Ok(Self { operator: operator.into(), parameter: parameter.into(), value })
+            }
+            None => Err("expected OPERATOR.PARAMETER=NUMBER, as in curl.radius=0.4".into()),
+        }
+    }
+}
+
+pub(super) fn run(args: &EditArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
+    target::check_in_place(&[&args.groom], &args.output, everywhere)?;
+    let mut report = Report::default();
+    let mut groom = ProceduralGroom::read(&args.groom)?;
+    for setting in &args.set {
+        let before = change(&mut groom, setting)?;
+        let name = format!("{}.{}", setting.operator, setting.parameter);
+        report.set(&name, setting.value);
+        report.say(&name, format!(" {} was {}", short(setting.value), short(before)));
+    }
+    // Out of range is an error now and not when the groom is built.
+    groom.build()?;
+    groom.write(&args.output)?;
+    report.set("output", &args.output);
+    report.say("wrote", args.output.display());
+    Ok(report)
+}
+
+/// Sets a parameter; gives its value before.
+fn change(groom: &mut ProceduralGroom, setting: &Setting) -> Result<f64, Failure> {
+    let names: Vec<&str> = groom.chain.operators.iter().map(|o| o.name()).collect();
+    let there = names.join(", ");
+    let operator = groom.chain.operators.iter_mut().find(|o| o.name() == setting.operator);
+    let operator = operator.ok_or_else(|| {
+        Failure::Failed(format!("no operator {:?} in this groom: {there}", setting.operator))
+    })?;
+    let parameters: Vec<&str> = operator.parameters().iter().map(|p| p.name).collect();
+    let slot = parameters.iter().position(|name| *name == setting.parameter);
+    let slot = slot.and_then(|slot| operator.values_mut().into_iter().nth(slot));
+    let slot = slot.ok_or_else(|| {
+        let (operator, parameter) = (&setting.operator, &setting.parameter);
+        let there = parameters.join(", ");
+        Failure::Failed(format!("no parameter {parameter:?} of {operator}: {there}"))
+    })?;
+    Ok(std::mem::replace(slot, setting.value))
+}
