@@ -80,12 +80,23 @@ pub(crate) struct SpaceArgs {
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Formats")]
 pub(crate) struct FormatArgs {
-    /// What .usda says lies between points: `linear` or `catmull-rom`
+    /// What USD says lies between points: `linear` or `catmull-rom`
     #[arg(long, value_enum, value_name = "KIND")]
     pub(crate) usd_curves: Option<UsdCurvesArg>,
+    /// The program that an .abc file is for: `unreal` scales to centimetres, turns Y up, names
+    /// attributes as its groom schema does, and keeps strands within 255 points
+    #[arg(long, value_enum, value_name = "PROGRAM")]
+    pub(crate) target: Option<TargetArg>,
 }
 
-/// What lies between points in .usda.
+/// A program with demands of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TargetArg {
+    /// Unreal Engine, groom schema 1.5
+    Unreal,
+}
+
+/// What lies between points in USD.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum UsdCurvesArg {
     /// Straight segments

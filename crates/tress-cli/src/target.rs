@@ -4,11 +4,12 @@ use std::fs;
 use std::path::Path;
 
 use tress::geometry::Groom;
+use tress::io::unreal::{self, UnrealOptions};
 use tress::io::{Format, UsdCurves, WriteOptions};
 
 use crate::args::Everywhere;
 use crate::failure::Failure;
-use crate::options::{FormatArgs, SamplingArgs, UsdCurvesArg};
+use crate::options::{FormatArgs, SamplingArgs, TargetArg, UsdCurvesArg};
 use crate::progress::Progress;
 use crate::report::{Report, count};
 use crate::source::Curved;
@@ -75,6 +76,9 @@ pub(crate) fn write(
     report: &mut Report,
 ) -> Result<(), Failure> {
     progress.stage(format!("writing {}", output.display()));
+    if format.target == Some(TargetArg::Unreal) {
+        return write_for_unreal(output, groom, report);
+    }
     let lost = tress::io::write(output, groom, &options(format))?;
     let (strands, points) = (groom.strands().len(), groom.strands().points().len());
     report.set("output", output);
@@ -85,6 +89,33 @@ pub(crate) fn write(
     report.say("wrote", format!("{file} ({strands} strands, {points} points)"));
     for loss in lost {
         report.say("not carried", loss);
+    }
+    Ok(())
+}
+
+/// Writes polylines as Unreal imports them, and reports what its limits cost.
+fn write_for_unreal(output: &Path, groom: &Groom, report: &mut Report) -> Result<(), Failure> {
+    if Format::from_path(output)? != Format::Abc {
+        return Err(Failure::Usage("--target unreal writes an .abc file".into()));
+    }
+    let fit = unreal::write(output, groom, &UnrealOptions::default())?;
+    let unit = if fit.unit_is_assumed { "units" } else { "cm" };
+    let error = fit.greatest_error();
+    report.set("output", output);
+    report.set("strands", groom.strands().len());
+    report.set("resampled", fit.resampled);
+    report.set("most_points", fit.most_points);
+    report.set("greatest_error", error);
+    report.set("unit_is_assumed", fit.unit_is_assumed);
+    let strands = count(groom.strands().len());
+    report.say("wrote", format!("{} ({strands} strands, for Unreal)", output.display()));
+    if fit.unit_is_assumed {
+        report.say("unit", "unknown, taken for centimetres: say --unit if it is another");
+    }
+    if 0 < fit.resampled {
+        let resampled = count(fit.resampled);
+        let line = format!("{resampled} strands to 255 points, at most {error:.3} {unit} off");
+        report.say("resampled", line);
     }
     Ok(())
 }

@@ -20,7 +20,8 @@ use crate::target;
 #[command(after_help = "Examples:
   tress convert groom.usdc groom.hair
   tress convert captured.data captured.tfx --points 32
-  tress convert scan.obj scan.usda --unit cm --up y --usd-curves catmull-rom")]
+  tress convert scan.obj scan.usda --unit cm --up y --usd-curves catmull-rom
+  tress convert groom.usdc groom.abc --target unreal")]
 pub(crate) struct ConvertArgs {
     /// The groom
     pub(crate) input: PathBuf,

@@ -2,7 +2,7 @@
 
 mod bench;
 mod growing;
-mod helicoid;
+mod interchange;
 mod sequence;
 mod switchback;
 
