@@ -20,13 +20,14 @@ pub(super) fn make() -> Outcome {
 fn alone() -> Outcome {
     let material = Material::default();
     let mut grooms: Vec<(Groom, String)> = Vec::new();
-    for v in [0.25, 0.5, 0.75] {
+    // As many turns as make strands about as long as each other.
+    for (v, turns) in [(0.25, 7.0), (0.5, 3.5), (0.75, 2.0)] {
         let exact = Switchback::new(v, &material)?;
         let ritz = Ritz::new(v, &material, &RitzOptions::default())?;
-        grooms.push((upright(strand(&exact, 0.5, 7.0, 32))?, format!("exact, v = {v}")));
-        grooms.push((upright(strand(&ritz, 0.5, 7.0, 32))?, format!("Rayleigh-Ritz, v = {v}")));
+        grooms.push((upright(strand(&exact, 0.5, turns, 32))?, format!("exact, v = {v}")));
+        grooms.push((upright(strand(&ritz, 0.5, turns, 32))?, format!("Rayleigh-Ritz, v = {v}")));
     }
-    let frame = Frame::around(grooms.iter().map(|(groom, _)| groom), View::Front, (240, 620), 0.08);
+    let frame = Frame::around(grooms.iter().map(|(groom, _)| groom), View::Front, (240, 620), 0.14);
     let panels: Vec<_> = grooms.iter().map(|(groom, caption)| (groom, caption.as_str())).collect();
     frame.sheet("switchback-exact.png", grooms.len(), &panels)
 }
