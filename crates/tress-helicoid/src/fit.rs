@@ -144,7 +144,14 @@ pub(crate) fn hold(hair: &PHelicoid<'_>, points: &[DVec3]) -> Option<(Frame, Vec
     let parts = 1..=points.len();
     let arc_lengths: Vec<f64> = parts.map(|i| i as f64 / points.len() as f64).collect();
     let points = Points { positions: &positions, arc_lengths: &arc_lengths, end: None };
-    let prior = levenberg::Prior { curvature: 1e-2, stretch: 1.0, free_root: true, free_roll: false };
+    let prior = levenberg::Prior {
+        curvature: 1.0,
+        stretch: 0.1,
+        change: 0.5,
+        keep_changes: true,
+        free_root: true,
+        free_roll: false,
+    };
     if !levenberg::refine(&mut chain, points, prior, HOLD) {
         return None;
     }

@@ -145,9 +145,8 @@ mod tests {
             (1 < q.len()).then(|| by_trying(p, &q[1..])),
             (1 < p.len() && 1 < q.len()).then(|| by_trying(&p[1..], &q[1..])),
         ];
-        let least = |pick: fn((f64, f64)) -> f64| {
-            tails.iter().flatten().map(|&t| pick(t)).reduce(f64::min)
-        };
+        let least =
+            |pick: fn((f64, f64)) -> f64| tails.iter().flatten().map(|&t| pick(t)).reduce(f64::min);
         (least(|t| t.0).map_or(d, |t| t.max(d)), least(|t| t.1).map_or(d, |t| t + d))
     }
 

@@ -102,9 +102,8 @@ impl HelicoidGroom {
         if let Some((entry, (&strand, _))) = stray.and_then(|i| kept.iter().enumerate().nth(i)) {
             return Err(GroomError::Kept { entry, strand }.into());
         }
-        let good = |piece: &Piece| {
-            piece.k.is_finite() && piece.length.is_finite() && 0.0 <= piece.length
-        };
+        let good =
+            |piece: &Piece| piece.k.is_finite() && piece.length.is_finite() && 0.0 <= piece.length;
         let whole = |i: &usize| roots[*i].is_valid() && pieces.strand(*i).iter().all(good);
         if let Some(strand) = (0..strands).find(|i| !whole(i)) {
             return Err(HelicoidGroomError::Strand { strand });

@@ -82,9 +82,8 @@ impl PHelicoid<'_> {
 
     /// An error unless all numbers are finite and no length is negative.
     fn check(&self) -> Result<(), TraceError> {
-        let good = |piece: &Piece| {
-            piece.k.is_finite() && 0.0 <= piece.length && piece.length.is_finite()
-        };
+        let good =
+            |piece: &Piece| piece.k.is_finite() && 0.0 <= piece.length && piece.length.is_finite();
         match self.pieces.iter().position(|piece| !good(piece)) {
             Some(piece) => Err(TraceError::NotFinite { piece }),
             None => Ok(()),

@@ -172,7 +172,9 @@ pub fn wisps(
         (0..hairs.len()).filter(|&i| !hairs.hair(i).pieces.is_empty()).collect();
     let total = guides.len().saturating_mul(options.hairs).saturating_mul(options.points);
     if u32::try_from(total).is_err() {
-        return Err(SampleError::from(tress_geometry::OffsetsError::TooMany { points: total }).into());
+        return Err(
+            SampleError::from(tress_geometry::OffsetsError::TooMany { points: total }).into()
+        );
     }
     let parts: Vec<Result<Vec<Vec<DVec3>>, TraceError>> = guides
         .par_iter()
@@ -212,7 +214,8 @@ fn lines(
         let mut line: Vec<DVec3> = frames.iter().map(|frame| frame.position).collect();
         neighbour(hair, offset, &stops, tracing, &mut line);
         for ((point, frame), &s) in line.iter_mut().zip(&frames).zip(&stops) {
-            let aside = (*point - frame.position) * options.factor(s / length.max(f64::MIN_POSITIVE));
+            let aside =
+                (*point - frame.position) * options.factor(s / length.max(f64::MIN_POSITIVE));
             *point = options.waviness.offset(frame, s) + aside;
         }
         let mut draw = || -> f64 { StandardNormal.sample(rng) };

@@ -3,8 +3,8 @@
 use glam::{DQuat, DVec2, DVec3, Vec3Swizzles};
 use tress_geometry::Frame;
 
-use super::rotation::mean_rotation;
 use super::Mixing;
+use super::rotation::mean_rotation;
 use crate::{Helicoid, Piece};
 
 /// A guide as it is mixed.
@@ -52,7 +52,8 @@ pub(super) fn mix(
     let length: f64 = with().map(|(guide, w)| w * guide.length).sum();
     let count: f64 = with().map(|(guide, w)| w * guide.pieces.len() as f64).sum();
     let most = with().map(|(guide, _)| guide.pieces.len()).max().unwrap_or(1);
-    let n = (1..=most).min_by_key(|&n| (1e6 * (n as f64 - count).abs()).round() as u64).unwrap_or(1);
+    let n =
+        (1..=most).min_by_key(|&n| (1e6 * (n as f64 - count).abs()).round() as u64).unwrap_or(1);
     match mixing {
         Mixing::Parameters => {
             let rotation = mean_rotation(with().map(|(guide, w)| (guide.carried(normal), w)));
@@ -61,7 +62,9 @@ pub(super) fn mix(
         }
         Mixing::Bends => {
             let reference = guides[weights[0].0].carried(normal);
-            let rolled = || with().map(|(guide, w)| (guide, w, Rolled::to(reference, guide.carried(normal))));
+            let rolled = || {
+                with().map(|(guide, w)| (guide, w, Rolled::to(reference, guide.carried(normal))))
+            };
             let rotation = mean_rotation(rolled().map(|(_, w, rolled)| (rolled.rotation, w)));
             let mut pieces: Vec<Piece> = (0..n).map(|j| bends(rolled(), j)).collect();
             let total: f64 = pieces.iter().map(|piece| piece.length).sum();
@@ -130,10 +133,7 @@ impl Rolled {
 const LEAST_KT: f64 = 1e-3;
 
 /// The mean bend, `kN` and `kB` over the guides that have a piece `j`, and its part of the length.
-fn bends<'a>(
-    guides: impl Iterator<Item = (&'a Guide<'a>, f64, Rolled)>,
-    j: usize,
-) -> Piece {
+fn bends<'a>(guides: impl Iterator<Item = (&'a Guide<'a>, f64, Rolled)>, j: usize) -> Piece {
     let (mut bend, mut kn, mut kb, mut part, mut total) = (DVec2::ZERO, 0.0, 0.0, 0.0, 0.0);
     for (guide, w, rolled) in guides {
         let Some(Piece { k, length }) = guide.piece(j) else { continue };

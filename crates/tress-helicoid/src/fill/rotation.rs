@@ -28,8 +28,10 @@ pub fn mean_rotation(rotations: impl Iterator<Item = (DQuat, f64)> + Clone) -> D
     let mut mean = sum.normalize();
     for _ in 0..STEPS {
         let back = mean.inverse();
-        let turn: DVec3 =
-            rotations.clone().map(|(q, w)| near(back * q, DQuat::IDENTITY).to_scaled_axis() * w).sum();
+        let turn: DVec3 = rotations
+            .clone()
+            .map(|(q, w)| near(back * q, DQuat::IDENTITY).to_scaled_axis() * w)
+            .sum();
         mean = (mean * DQuat::from_scaled_axis(turn)).normalize();
         if turn.length_squared() < 1e-20 {
             break;

@@ -32,9 +32,8 @@ pub fn normals_at(mesh: &Mesh, points: &[DVec3]) -> Vec<DVec3> {
             let near = mesh.triangles()[i].map(|vertex| corners[vertex as usize]);
             let at = mesh.corners(i);
             // Weights that fall with the distance from a corner, which no flat triangle upsets.
-            let sum: DVec3 = (0..3)
-                .map(|j| near[j] / (at[j].distance(*point) + f64::MIN_POSITIVE))
-                .sum();
+            let sum: DVec3 =
+                (0..3).map(|j| near[j] / (at[j].distance(*point) + f64::MIN_POSITIVE)).sum();
             sum.try_normalize().unwrap_or(DVec3::Z)
         }
         None => DVec3::Z,

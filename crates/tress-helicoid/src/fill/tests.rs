@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
-use proptest::prelude::*;
 use glam::DMat3;
+use proptest::prelude::*;
 
 use super::*;
 use crate::Helicoid;
@@ -95,7 +95,8 @@ fn copies_turned_by_half_a_turn_fan_out_between_as_published() {
     // [GH Fig. 6]: two guides, one turned by half a turn about its tangent.
     let k = Piece { k: Helicoid::new(1.0, -0.1, 0.3, 1.0), length: 1.0 };
     let half = DMat3::from_axis_angle(DVec3::X, PI - 1e-6);
-    let guides = groom(vec![(at(0.0, 0.0, DMat3::IDENTITY), vec![k]), (at(0.0, 4.0, half), vec![k])]);
+    let guides =
+        groom(vec![(at(0.0, 0.0, DMat3::IDENTITY), vec![k]), (at(0.0, 4.0, half), vec![k])]);
     let options = FillOptions { mixing: Mixing::Parameters, ..FillOptions::default() };
     let roots: Vec<DVec3> = (0..=8).map(|i| DVec3::new(0.0, 0.5 * f64::from(i), 0.0)).collect();
     let filled = fill(&guides, Roots::Points(&roots), &options).expect("guides");
@@ -115,13 +116,11 @@ fn a_surface_carries_frames_with_its_normals() {
     };
     let (first, n0) = stand(-1.2);
     let (second, n1) = stand(1.2);
-    let guides = groom(vec![(first, vec![piece(0.4, 0.0, 1.0)]), (second, vec![piece(0.4, 0.0, 1.0)])]);
+    let guides =
+        groom(vec![(first, vec![piece(0.4, 0.0, 1.0)]), (second, vec![piece(0.4, 0.0, 1.0)])]);
     let (middle, normal) = stand(0.3);
-    let roots = Roots::Surface {
-        positions: &[middle.position],
-        normals: &[normal],
-        at_guides: &[n0, n1],
-    };
+    let roots =
+        Roots::Surface { positions: &[middle.position], normals: &[normal], at_guides: &[n0, n1] };
     for mixing in [Mixing::Bends, Mixing::Parameters] {
         let options = FillOptions { mixing, ..FillOptions::default() };
         let filled = fill(&guides, roots, &options).expect("guides");
@@ -204,7 +203,8 @@ fn what_cannot_be_filled_is_refused() {
     assert!(matches!(fill(&sink, points, &options), Err(FillError::Guide { guide: 0, .. })));
     let nowhere = Roots::Points(&[DVec3::NAN]);
     assert_eq!(fill(&good, nowhere, &options), Err(FillError::Root(0)));
-    let surface = |normals, at_guides| Roots::Surface { positions: &[DVec3::ZERO], normals, at_guides };
+    let surface =
+        |normals, at_guides| Roots::Surface { positions: &[DVec3::ZERO], normals, at_guides };
     let error = fill(&good, surface(&[], &[DVec3::Z]), &options);
     assert_eq!(error, Err(FillError::Normals { normals: 0, roots: 1 }));
     let error = fill(&good, surface(&[DVec3::Z], &[DVec3::ZERO]), &options);

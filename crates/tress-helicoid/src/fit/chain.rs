@@ -218,7 +218,8 @@ impl Chain {
         let mut rest = step;
         if free_root && let Some((turn, behind)) = rest.split_first_chunk::<OF_ROOT>() {
             let turn = self.root.axes * DVec3::from_array(*turn);
-            let turned = glam::DQuat::from_scaled_axis(turn) * glam::DQuat::from_mat3(&self.root.axes);
+            let turned =
+                glam::DQuat::from_scaled_axis(turn) * glam::DQuat::from_mat3(&self.root.axes);
             moved.root.axes = glam::DMat3::from_quat(turned.normalize());
             rest = behind;
         }
@@ -251,7 +252,11 @@ mod tests {
         let piece = |kt, kn, kb, alpha| Piece { k: Helicoid::new(kt, kn, kb, alpha), length: 0.4 };
         let chain = Chain {
             root: Frame::along(DVec3::ZERO, DVec3::ONE).expect("a direction"),
-            pieces: vec![piece(2.0, 0.1, 0.4, 0.5), piece(-1.5, -0.2, 0.3, 2.0), piece(1.0, 0.0, 0.0, -0.7)],
+            pieces: vec![
+                piece(2.0, 0.1, 0.4, 0.5),
+                piece(-1.5, -0.2, 0.3, 2.0),
+                piece(1.0, 0.0, 0.0, -0.7),
+            ],
             breaks: vec![0.0, 0.4, 0.7, 1.0],
         };
         let arc_lengths: Vec<f64> = (1..=20).map(|i| f64::from(i) / 20.0).collect();

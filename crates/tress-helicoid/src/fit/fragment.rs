@@ -140,7 +140,14 @@ impl<'a> Fragment<'a> {
         let held = if is_strand { 1.0 } else { HELD };
         let curvature = held * options.regularization;
         let free_roll = options.roll == Roll::Bend;
-        let prior = Prior { curvature, stretch: 0.01, free_root, free_roll };
+        let prior = Prior {
+            curvature,
+            stretch: 0.01,
+            change: 0.0,
+            keep_changes: false,
+            free_root,
+            free_roll,
+        };
         let mut turning = FIRST_PART;
         let mut part = self.up_to(turning);
         let Some(mut chain) = part.start(prior) else {
@@ -180,7 +187,9 @@ impl<'a> Fragment<'a> {
                 break;
             }
             let base = best.root;
-            let Some(mut other) = (Self { base, ..*self }).turned(&best.pieces[0].k, alpha) else { continue };
+            let Some(mut other) = (Self { base, ..*self }).turned(&best.pieces[0].k, alpha) else {
+                continue;
+            };
             if refine(&mut other, points, prior, LAST) && other.cost(points) < best.cost(points) {
                 best = other;
             }

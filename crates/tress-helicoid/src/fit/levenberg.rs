@@ -22,6 +22,10 @@ pub(super) struct Prior {
     pub(super) curvature: f64,
     /// A piece longer by a factor of e costs as much as this distance.
     pub(super) stretch: f64,
+    /// A bend that differs from the one before by one over the piece's length costs as much.
+    pub(super) change: f64,
+    /// Whether what changes already at the start is free: then only what is added costs.
+    pub(super) keep_changes: bool,
     /// Whether the root may turn.
     pub(super) free_root: bool,
     /// Whether it may turn about its tangent.
@@ -33,6 +37,30 @@ struct Normal {
     matrix: DMatrix<f64>,
     gradient: DVector<f64>,
     cost: f64,
+}
+
+/// What the prior leaves as it is.
+struct Rest {
+    lengths: Vec<f64>,
+    /// Changes of the bend from each piece to the next.
+    changes: Vec<[f64; 2]>,
+}
+
+impl Rest {
+    fn new(chain: &Chain, prior: Prior) -> Self {
+        let n = chain.pieces.len();
+        let change = |i| if prior.keep_changes { bend_change(chain, i) } else { [0.0; 2] };
+        Self {
+            lengths: chain.pieces.iter().map(|piece| piece.length).collect(),
+            changes: (1..n).map(change).collect(),
+        }
+    }
+
+    /// How much more the bend changes to piece `i` than it did.
+    fn added(&self, chain: &Chain, i: usize) -> [f64; 2] {
+        let ([a, c], [b, d]) = (bend_change(chain, i), self.changes[i - 1]);
+        [a - b, c - d]
+    }
 }
 
 /// Damping beyond which no step helps any more.
@@ -49,7 +77,7 @@ const EXACT: f64 = 1e-26;
 
 /// Moves the chain towards the points until nothing is gained; false where it is singular.
 pub(super) fn refine(chain: &mut Chain, points: Points<'_>, prior: Prior, effort: Effort) -> bool {
-    let rest: Vec<f64> = chain.pieces.iter().map(|piece| piece.length).collect();
+    let rest = Rest::new(chain, prior);
     let mut damping = 1e-4;
     for _ in 0..effort.steps {
         let Some(normal) = Normal::of(chain, points, prior, &rest) else { return false };
@@ -79,24 +107,42 @@ pub(super) fn refine(chain: &mut Chain, points: Points<'_>, prior: Prior, effort
 }
 
 /// The prior's cost, and how it weighs each piece's curvatures and stretch.
-fn penalty(chain: &Chain, points: Points<'_>, prior: Prior, rest: &[f64]) -> (f64, Vec<[f64; 2]>) {
+fn penalty(chain: &Chain, points: Points<'_>, prior: Prior, rest: &Rest) -> (f64, Vec<[f64; 2]>) {
     let each = points.positions.len() as f64 / chain.pieces.len() as f64;
-    let weights = rest.iter().map(|l| {
+    let weights = rest.lengths.iter().map(|l| {
         let curvature = prior.curvature * l * l;
         [each * curvature * curvature, each * (prior.stretch * l).powi(2)]
     });
     let weights: Vec<[f64; 2]> = weights.collect();
     let of = |(i, [w, v]): (usize, &[f64; 2])| {
-        let (k, stretch) = (chain.pieces[i].k, (chain.pieces[i].length / rest[i]).ln());
+        let (k, stretch) = (chain.pieces[i].k, (chain.pieces[i].length / rest.lengths[i]).ln());
         let c = k.alpha * k.kt;
         let kb = k.kb * k.kb * (1.0 + k.alpha * k.alpha);
         w * (BEND * (k.kt * k.kt + c * c) + k.kn * k.kn + kb) + v * stretch * stretch
     };
-    (weights.iter().enumerate().map(of).sum(), weights)
+    let own: f64 = weights.iter().enumerate().map(of).sum();
+    let changes = (1..rest.lengths.len()).map(|i| {
+        let [a, c] = rest.added(chain, i);
+        change_weight(points, prior, rest, i) * (a * a + c * c)
+    });
+    (own + changes.sum::<f64>(), weights)
+}
+
+/// How the bend changes from the piece before to piece `i`.
+fn bend_change(chain: &Chain, i: usize) -> [f64; 2] {
+    let (k, before) = (chain.pieces[i].k, chain.pieces[i - 1].k);
+    [k.kt - before.kt, k.alpha * k.kt - before.alpha * before.kt]
+}
+
+/// What such a change costs.
+fn change_weight(points: Points<'_>, prior: Prior, rest: &Rest, i: usize) -> f64 {
+    let each = points.positions.len() as f64 / rest.lengths.len() as f64;
+    let l = 0.5 * (rest.lengths[i] + rest.lengths[i - 1]);
+    each * (prior.change * l * l).powi(2)
 }
 
 impl Normal {
-    fn of(chain: &Chain, points: Points<'_>, prior: Prior, rest: &[f64]) -> Option<Self> {
+    fn of(chain: &Chain, points: Points<'_>, prior: Prior, rest: &Rest) -> Option<Self> {
         let n = chain.unknowns(prior.free_root);
         // Row by row; only the lower triangle is filled.
         let mut matrix = vec![0.0; n * n];
@@ -129,7 +175,7 @@ impl Normal {
         for (i, [w, v]) in weights.iter().enumerate() {
             let piece = chain.pieces[i];
             let k = piece.k;
-            let stretch = (piece.length / rest[i]).ln();
+            let stretch = (piece.length / rest.lengths[i]).ln();
             let values = [k.kt, k.alpha * k.kt, k.kn, k.kb, stretch];
             for (j, value) in values.into_iter().enumerate() {
                 let weight = match j {
@@ -141,6 +187,18 @@ impl Normal {
                 let at = first + i * OF_PIECE + j;
                 matrix[at * n + at] += weight;
                 gradient[at] += weight * value;
+            }
+        }
+        for i in 1..rest.lengths.len() {
+            let weight = change_weight(points, prior, rest, i);
+            for (j, change) in rest.added(chain, i).into_iter().enumerate() {
+                let at = first + i * OF_PIECE + j;
+                let before = at - OF_PIECE;
+                matrix[at * n + at] += weight;
+                matrix[before * n + before] += weight;
+                matrix[at * n + before] -= weight;
+                gradient[at] += weight * change;
+                gradient[before] -= weight * change;
             }
         }
         let matrix = DMatrix::from_row_slice(n, n, &matrix);

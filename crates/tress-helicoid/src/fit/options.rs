@@ -117,7 +117,12 @@ impl FitOptions {
         }
         let part = |value: f64| 0.0 < value && value <= 1.0;
         let numbers = [
-            ("tolerance", self.tolerance, 0.0 < self.tolerance && self.tolerance.is_finite(), "above 0"),
+            (
+                "tolerance",
+                self.tolerance,
+                0.0 < self.tolerance && self.tolerance.is_finite(),
+                "above 0",
+            ),
             ("threshold", self.threshold, part(self.threshold), "above 0, at most 1"),
             ("shortest", self.shortest, part(self.shortest), "above 0, at most 1"),
             (

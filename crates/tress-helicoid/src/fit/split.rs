@@ -19,6 +19,13 @@ const FEWEST_SEGMENTS: usize = 3;
 /// No points at all.
 const NOWHERE: Points<'_> = Points { positions: &[], arc_lengths: &[], end: None };
 
+/// What parameters cost in pieces that are to be mixed, over what they cost alone: `kN` and `kB` add
+/// little to short pieces, and what they add is not alike from strand to strand.
+const ALIKE: f64 = 1000.0;
+
+/// What a change of the bend from piece to piece costs there: enough that noise is not followed.
+const CHANGE: f64 = 0.01;
+
 const TOGETHER: Effort = Effort { steps: 12, gain: 1e-2 };
 
 /// Fits a chain to the whole target.
@@ -29,8 +36,22 @@ pub(super) fn fit(target: &Target, options: &FitOptions) -> Option<Chain> {
     };
     if options.method == Method::Newton && 1 < chain.pieces.len() {
         let free_roll = options.roll == Roll::Bend;
-        let curvature = HELD * options.regularization;
-        let prior = Prior { curvature, stretch: 0.01, free_root: true, free_roll };
+        let curvature = match options.pieces {
+            Pieces::UpTo(_) => HELD * options.regularization,
+            Pieces::Equal(_) => ALIKE * options.regularization,
+        };
+        let change = match options.pieces {
+            Pieces::UpTo(_) => 0.0,
+            Pieces::Equal(_) => CHANGE,
+        };
+        let prior = Prior {
+            curvature,
+            stretch: 0.01,
+            change,
+            keep_changes: false,
+            free_root: true,
+            free_roll,
+        };
         let points = behind_root(target);
         let before = chain.clone();
         if !refine(&mut chain, points, prior, TOGETHER) {
@@ -156,11 +177,15 @@ fn equal(target: &Target, n: usize, options: &FitOptions) -> Option<Chain> {
             let points = Points {
                 positions: &target.points[from..from + count],
                 arc_lengths: &target.arc_lengths[from..from + count],
-                end: (j + 1 < n).then(|| (target.tangents[last], 0.2 * (ends - begins) * (count as f64).sqrt())),
+                end: (j + 1 < n).then(|| {
+                    (target.tangents[last], 0.2 * (ends - begins) * (count as f64).sqrt())
+                }),
             };
             let prior = Prior {
                 curvature: HELD * options.regularization,
                 stretch: 0.01,
+                change: 0.0,
+                keep_changes: false,
                 free_root: j == 0,
                 free_roll: options.roll == Roll::Bend,
             };

@@ -40,7 +40,8 @@ fn parts_that_do_not_match_are_refused() {
     let roots = HelicoidGroom::new(vec![Frame::IDENTITY; 2], Strands::default());
     assert!(matches!(roots, Err(HelicoidGroomError::Parts(GroomError::Roots { .. }))));
     let kept = BTreeMap::from([(7, vec![])]);
-    let stray = HelicoidGroom::with_attributes(vec![], Strands::default(), Attributes::new(0), kept);
+    let stray =
+        HelicoidGroom::with_attributes(vec![], Strands::default(), Attributes::new(0), kept);
     assert!(matches!(stray, Err(HelicoidGroomError::Parts(GroomError::Kept { strand: 7, .. }))));
     let rows =
         HelicoidGroom::with_attributes(vec![], Strands::default(), Attributes::new(1), [].into());

@@ -61,8 +61,10 @@ fn disorder_turns_hairs_and_leaves_the_guide() {
 #[test]
 fn waves_reach_their_amplitude() {
     let waviness = Waviness { amplitude: 0.2, frequency: 9.0, fade_in: 0.0 };
-    let (plain, wavy) =
-        (made(&guide(1.0, 0.0), &options()), made(&guide(1.0, 0.0), &WispOptions { waviness, ..options() }));
+    let (plain, wavy) = (
+        made(&guide(1.0, 0.0), &options()),
+        made(&guide(1.0, 0.0), &WispOptions { waviness, ..options() }),
+    );
     for (p, q) in plain.strand(0).iter().zip(wavy.strand(0)) {
         assert!((p.distance(*q) - 0.2).abs() < 1e-12);
     }
