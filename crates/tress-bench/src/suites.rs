@@ -4,6 +4,7 @@ mod droop;
 mod fitting;
 mod formats;
 mod growing;
+mod helicoid;
 mod interchange;
 mod pictures;
 mod sculpting;
@@ -27,6 +28,7 @@ const SUITES: &[Suite] = &[
     Suite { names: droop::NAMES, run: droop::run },
     Suite { names: formats::NAMES, run: formats::run },
     Suite { names: growing::NAMES, run: growing::run },
+    Suite { names: helicoid::NAMES, run: helicoid::run },
     Suite { names: interchange::NAMES, run: interchange::run },
     Suite { names: pictures::NAMES, run: pictures::run },
     Suite { names: sculpting::NAMES, run: sculpting::run },

@@ -1,9 +1,9 @@
 //! The program as its users meet it: exit status, what is printed where, files.
 
-mod analysing;
 mod bench;
 mod growing;
 mod interchange;
+mod helicoid;
 mod sequence;
 mod switchback;
 
