@@ -6,6 +6,8 @@ mod common;
 mod bad_input;
 mod files;
 mod grooms;
+#[cfg(unix)]
+mod places;
 mod ply_and_tfx;
 mod polylines;
 mod real_grooms;
