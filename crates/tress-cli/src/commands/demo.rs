@@ -1,20 +1,23 @@
 //! `tress demo`: the tour on a bundled groom.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, Parser};
 use tress::analysis::{GroomSummary, Quantity, QuantityValues, quantity, summarize};
 use tress::edit::{Grouping, RuffleOptions, RuffleReport, groups, ruffle};
 use tress::fit::{Elements, FitOptions, FitReport, Sampling, fit, sample};
-use tress::geometry::{Groom, HelixGroom, UpAxis};
+use tress::geometry::glam::DVec3;
+use tress::geometry::{Groom, HelixGroom, Strands, SuperHelix, UpAxis};
 use tress::io::{WriteOptions, write, write_bytes, write_helices};
+use tress::optimize::{Control, SculptOptions, sculpt};
 use tress::view::{
     Camera, Coloring, Panel, RenderOptions, RgbImage, Scale, Size, View, png, render,
     render_seen_by, sheet,
 };
 
-use crate::args::Everywhere;
+use crate::args::{Cli, Everywhere};
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::report::{Report, count, short, spread};
@@ -30,11 +33,15 @@ const ELEMENTS: usize = 90;
 /// Wisps of the bundled groom.
 const WISPS: usize = 30;
 
-/// The tour: a bundled groom read, fitted, ruffled, written and pictured
+/// How far tips are drawn aside, in parts of their strand's distance from root to tip.
+const DRAWN: f64 = 0.5;
+
+/// The tour: a bundled groom read, fitted, analysed, ruffled, sculpted, written and pictured
 ///
 /// Leaves in DIR: the groom (patch.hair), its super-helices (patch.tress), the ruffled groom
-/// (ruffled.usda, ruffled.hair), pictures (before.png, after.png, before-after.png, radius.png) and
-/// a report (report.md).
+/// (ruffled.usda, ruffled.hair), the groom with its tips drawn aside (sculpted.hair), pictures
+/// (before.png, after.png, before-after.png, sculpted.png, radius.png), what the groom is like
+/// (analysis.html) and a report (report.md).
 #[derive(Args, Debug)]
 pub(crate) struct DemoArgs {
     /// Folder to leave everything in; made if it is not there
@@ -54,6 +61,7 @@ pub(crate) fn run(args: &DemoArgs, everywhere: &Everywhere) -> Result<Report, Fa
     progress.stage("drawing");
     tour.write_pictures(dir)?;
     write_bytes(dir.join("report.md"), tour.report().as_bytes())?;
+    analyze(dir, everywhere)?;
 
     let mut report = Report::default();
     report.set("output", dir);
@@ -69,6 +77,14 @@ pub(crate) fn run(args: &DemoArgs, everywhere: &Everywhere) -> Result<Report, Fa
     Ok(report)
 }
 
+/// `tress analyze` on the groom that was left.
+fn analyze(dir: &Path, everywhere: &Everywhere) -> Result<(), Failure> {
+    let (groom, page) = (dir.join("patch.hair"), dir.join("analysis.html"));
+    let line = ["tress", "analyze", "--unit", "cm", "--up", "y", "--html"].map(OsString::from);
+    let cli = Cli::parse_from(line.into_iter().chain([page.into(), groom.into()]));
+    super::run(&cli.command, everywhere).map(drop)
+}
+
 /// What the tour goes through.
 struct Tour {
     before: Groom,
@@ -78,6 +94,7 @@ struct Tour {
     ruffled: HelixGroom,
     ruffle: RuffleReport,
     after: Groom,
+    sculpted: Groom,
 }
 
 impl Tour {
@@ -95,6 +112,8 @@ impl Tour {
         let (ruffled, report) = ruffle(&fitted.helices, &wisps, &options, seed)?;
         let counts: Vec<usize> = before.strands().counts().collect();
         let after = sample(&ruffled, &Sampling::Counts(&counts))?;
+        progress.stage("sculpting");
+        let sculpted = sample(&drawn_aside(&fitted.helices)?, &Sampling::Counts(&counts))?;
         Ok(Self {
             before,
             helices: fitted.helices,
@@ -103,6 +122,7 @@ impl Tour {
             ruffled,
             ruffle: report,
             after,
+            sculpted,
         })
     }
 
@@ -113,6 +133,7 @@ impl Tour {
         write_helices(dir.join("ruffled.tress"), &self.ruffled)?;
         write(dir.join("ruffled.usda"), &self.after, &options)?;
         write(dir.join("ruffled.hair"), &self.after, &options)?;
+        write(dir.join("sculpted.hair"), &self.sculpted, &options)?;
         Ok(())
     }
 
@@ -123,8 +144,8 @@ impl Tour {
             size: Size::new(900, 900),
             ..RenderOptions::default()
         };
-        let points = self.before.strands().points().iter().chain(self.after.strands().points());
-        let points = points.copied();
+        let grooms = [&self.before, &self.after, &self.sculpted];
+        let points = grooms.iter().flat_map(|groom| groom.strands().points()).copied();
         let camera = Camera::fit(points, UpAxis::Y, options.view, options.size, options.margin);
         let draw = |groom: &Groom, coloring: &Coloring<'_>| {
             render_seen_by(&camera, groom, coloring, &options)
@@ -136,11 +157,18 @@ impl Tour {
             Panel { image: &after, caption: "ruffled: strands of a wisp exchange curls" },
         ];
         let both = sheet(&panels, 2, options.background)?;
+        let sculpted = draw(&self.sculpted, &Coloring::Natural)?;
+        let panels = [
+            Panel { image: &before, caption: "as it is" },
+            Panel { image: &sculpted, caption: "sculpted: tips drawn aside" },
+        ];
+        let sculpted = sheet(&panels, 2, options.background)?;
         let radius = self.colored_by_radius(&options)?;
         for (name, picture) in [
             ("before.png", &before),
             ("after.png", &after),
             ("before-after.png", &both),
+            ("sculpted.png", &sculpted),
             ("radius.png", &radius),
         ] {
             write_bytes(dir.join(name), &png(picture)?)?;
@@ -178,9 +206,25 @@ impl Tour {
              left and {right} to the right (radius.png)\n\
              - ruffled: {replaced} of {candidates} elements replaced by those of a strand of the \
              same wisp (ruffled.tress, ruffled.usda, ruffled.hair)\n\
-             - drew before-after.png, before.png, after.png, radius.png\n\n\
+             - sculpted: every tip drawn aside, no length changed (sculpted.hair)\n\
+             - analysed: analysis.html opens in a browser\n\
+             - drew before-after.png, before.png, after.png, sculpted.png, radius.png\n\n\
              ![before and after](before-after.png)\n\n\
+             ![sculpted](sculpted.png)\n\n\
              ![coil radius](radius.png)\n"
         )
     }
+}
+
+/// The groom with each tip drawn aside.
+fn drawn_aside(helices: &HelixGroom) -> Result<HelixGroom, Failure> {
+    let aside = |strand: SuperHelix<'_>| {
+        let (root, tip) = (strand.root.position, strand.position_at(strand.length()));
+        Control::new(strand.length(), tip + DRAWN * root.distance(tip) * DVec3::X)
+    };
+    let tips: Vec<Control> = helices.iter().map(aside).collect();
+    let tips = Strands::from_counts(std::iter::repeat_n(1, helices.len()), tips)?;
+    let mut drawn = helices.clone();
+    sculpt(&mut drawn, &tips, &SculptOptions::default())?;
+    Ok(drawn)
 }
