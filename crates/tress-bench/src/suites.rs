@@ -1,5 +1,6 @@
 //! The measurements, one file a topic.
 
+mod analysis;
 mod droop;
 mod fitting;
 mod formats;
@@ -24,6 +25,7 @@ struct Suite {
 }
 
 const SUITES: &[Suite] = &[
+    Suite { names: analysis::NAMES, run: analysis::run },
     Suite { names: fitting::NAMES, run: fitting::run },
     Suite { names: droop::NAMES, run: droop::run },
     Suite { names: formats::NAMES, run: formats::run },

@@ -1,5 +1,6 @@
 //! The program as its users meet it: exit status, what is printed where, files.
 
+mod analysing;
 mod bench;
 mod growing;
 mod interchange;
