@@ -21,7 +21,8 @@ use crate::{PHelicoid, Piece, TraceError, Tracing};
 /// use tress_helicoid::{Helicoid, HelicoidGroom, Piece};
 ///
 /// let pieces = vec![Piece { k: Helicoid::new(1.0, 0.0, 0.2, 0.5), length: 2.0 }; 3];
-/// let groom = HelicoidGroom::new(vec![Frame::IDENTITY; 2], Strands::from_counts([1, 2], pieces)?)?;
+/// let pieces = Strands::from_counts([1, 2], pieces)?;
+/// let groom = HelicoidGroom::new(vec![Frame::IDENTITY; 2], pieces)?;
 /// let text = ron::to_string(&groom)?;
 /// assert_eq!(ron::from_str::<HelicoidGroom>(&text)?, groom);
 /// assert_eq!(groom.hair(1).length(), 4.0);

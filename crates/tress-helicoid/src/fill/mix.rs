@@ -52,8 +52,8 @@ pub(super) fn mix(
     let length: f64 = with().map(|(guide, w)| w * guide.length).sum();
     let count: f64 = with().map(|(guide, w)| w * guide.pieces.len() as f64).sum();
     let most = with().map(|(guide, _)| guide.pieces.len()).max().unwrap_or(1);
-    let n =
-        (1..=most).min_by_key(|&n| (1e6 * (n as f64 - count).abs()).round() as u64).unwrap_or(1);
+    let off = |n: &usize| (*n as f64 - count).abs();
+    let n = (1..=most).min_by(|n, m| off(n).total_cmp(&off(m))).unwrap_or(1);
     match mixing {
         Mixing::Parameters => {
             let rotation = mean_rotation(with().map(|(guide, w)| (guide.carried(normal), w)));

@@ -135,7 +135,8 @@ impl Chain {
         tangents
     }
 
-    /// Sum of squared distances from the points (and of the end's direction); infinite where the chain is singular.
+    /// Sum of squared distances from the points (and of the end's direction); infinite where the
+    /// chain is singular.
     pub(super) fn cost(&self, points: Points<'_>) -> f64 {
         let mut sum = 0.0;
         let whole = self.walk::<0>(

@@ -19,8 +19,8 @@ const FEWEST_SEGMENTS: usize = 3;
 /// No points at all.
 const NOWHERE: Points<'_> = Points { positions: &[], arc_lengths: &[], end: None };
 
-/// What parameters cost in pieces that are to be mixed, over what they cost alone: `kN` and `kB` add
-/// little to short pieces, and what they add is not alike from strand to strand.
+/// What parameters cost in pieces that are to be mixed, over what they cost alone: `kN` and `kB`
+/// add little to short pieces, and what they add is not alike from strand to strand.
 const ALIKE: f64 = 1000.0;
 
 /// What a change of the bend from piece to piece costs there: enough that noise is not followed.

@@ -90,7 +90,7 @@ impl Target {
         }
     }
 
-    /// The frame at the root as the strand's first bend has it: E_N points to where it bends.
+    /// The frame at the root as the strand's first bend has it: `E_N` points to where it bends.
     fn bent_root(&self) -> Frame {
         let t = self.tangents[0];
         let turned = |v: &&DVec3| t.angle_between(**v) < FIRST_BEND;

@@ -89,7 +89,8 @@ pub(super) fn walk(
             s = if ends { length } else { s + h };
         }
         h *= (0.9 * ratio.powf(-0.2)).clamp(0.2, 5.0);
-        if s < length && !(LEAST_STEP * length < h) {
+        // A step that is not a number is no step either.
+        if s < length && (h.is_nan() || h <= LEAST_STEP * length) {
             return Err(Singular(s));
         }
     }
