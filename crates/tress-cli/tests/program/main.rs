@@ -2,9 +2,10 @@
 
 mod analysing;
 mod bench;
+mod grooms;
 mod growing;
-mod interchange;
 mod helicoid;
+mod interchange;
 mod sequence;
 mod switchback;
 
