@@ -17,7 +17,8 @@ const FILE_VERSION: i32 = 0;
 /// Version of the C++ library whose archives this one is like: 1.8.0.
 const LIBRARY_VERSION: i32 = 10800;
 
-/// An archive that is being written. One that is not [finished](Self::finish) says so to its readers.
+/// An archive that is being written. One that is not [finished](Self::finish) says so to its
+/// readers.
 #[derive(Debug)]
 pub struct Archive<W> {
     out: Chunks<W>,

@@ -49,8 +49,8 @@
 //! | header, time samplings, texts that headers share | `archive`, `texts` |
 //!
 //! The layout is that of Alembic 1.8's `AbcCoreOgawa`, followed byte by byte in archives of the C++
-//! library. One thing differs: the digests of whole objects are made with `MurmurHash3`, as those of
-//! samples, where that library uses `SpookyHash`. Readers compare them with each other only.
+//! library. One thing differs: the digests of whole objects are made with `MurmurHash3`, as those
+//! of samples, where that library uses `SpookyHash`. Readers compare them with each other only.
 
 mod archive;
 mod chunks;

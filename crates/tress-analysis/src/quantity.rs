@@ -141,7 +141,8 @@ impl Analysis {
     /// let QuantityValues::Joints(beta) = analysis.values(Quantity::Beta) else { panic!() };
     /// assert_eq!(beta.len(), 3);
     /// assert!((beta[1] - 1.0).abs() < 1e-2);
-    /// let radius = QuantityValues::Strands(vec![analysis.strands[0].unwrap().coil_radius.unwrap()]);
+    /// let radius =
+    /// QuantityValues::Strands(vec![analysis.strands[0].unwrap().coil_radius.unwrap()]);
     /// assert_eq!(analysis.values(Quantity::Radius), radius);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

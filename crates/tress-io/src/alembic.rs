@@ -3,9 +3,9 @@
 //! Every curves object of an archive is read, in the order of the hierarchy, instances as often as
 //! they stand there; where there are several, the strand column `group` tells which object a strand
 //! is from. The transforms of the parents apply. Points come out *on* the curves, as for
-//! [`usd`](crate::usd): linear curves keep their points exactly whatever basis they carry (exporters
-//! leave `kCatmullromBasis` or `kBezierBasis` on linear curves), cubic B-splines and Bezier curves
-//! are evaluated. Of an animated archive [`read`] takes the first sample.
+//! [`usd`](crate::usd): linear curves keep their points exactly whatever basis they carry
+//! (exporters leave `kCatmullromBasis` or `kBezierBasis` on linear curves), cubic B-splines and
+//! Bezier curves are evaluated. Of an animated archive [`read`] takes the first sample.
 //!
 //! | in the file | in the groom |
 //! |---|---|
@@ -26,11 +26,11 @@
 //!
 //! # Writing
 //!
-//! A groom becomes one linear curves object, `/groom/strands`. Since all readers take Y for the axis
-//! that is up, a groom whose axis is Z is turned. Positions and columns are narrowed to 32 bits.
-//! Widths are diameters; a groom without them gets a hair's, as for [`usd`](crate::usd), since what
-//! tools assume differs wildly. A column becomes a geometry parameter of its name; a column of
-//! strands steps aside as `NAME_strand` where one of points has its name.
+//! A groom becomes one linear curves object, `/groom/strands`. Since all readers take Y for the
+//! axis that is up, a groom whose axis is Z is turned. Positions and columns are narrowed to 32
+//! bits. Widths are diameters; a groom without them gets a hair's, as for [`usd`](crate::usd),
+//! since what tools assume differs wildly. A column becomes a geometry parameter of its name; a
+//! column of strands steps aside as `NAME_strand` where one of points has its name.
 
 mod curves;
 mod parameters;

@@ -3,9 +3,9 @@
 //! Unreal takes centimetres with Y up, at most 255 points a strand (it cuts off what is beyond),
 //! and in each group at most 2^22 - 1 strands and 2^24 - 1 points. [`write()`] turns and scales a
 //! groom whose axis and unit are known, gives strands with more points fewer (see [`Placement`]),
-//! and says how far the segments that Unreal draws are then from the hair. The version of the schema
-//! stands in the user properties of the topmost transform. See [`alembic`](crate::alembic) for the
-//! rest of the file; the parameters are
+//! and says how far the segments that Unreal draws are then from the hair. The version of the
+//! schema stands in the user properties of the topmost transform. See [`alembic`](crate::alembic)
+//! for the rest of the file; the parameters are
 //!
 //! | column | parameter | scope | type |
 //! |---|---|---|---|
@@ -19,8 +19,8 @@
 //! | `color` | `groom_color` | vertex | `float32[3]` |
 //! | `roughness`, `ao` | `groom_roughness`, `groom_ao` | vertex | `float32` |
 //!
-//! and every other column under its own name. Widths are those of the curves, a row a point; without
-//! them Unreal would draw hair 1 cm thick, so a groom that has none gets a hair's.
+//! and every other column under its own name. Widths are those of the curves, a row a point;
+//! without them Unreal would draw hair 1 cm thick, so a groom that has none gets a hair's.
 //!
 //! This follows Epic's documents. It was not tried in Unreal itself.
 

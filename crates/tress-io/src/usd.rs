@@ -40,14 +40,15 @@
 //! - Strands of no or one point are written as they are. USD calls such curves invalid, Pixar's
 //!   library reads them, and none is lost on the way back; some renderers leave the prim out.
 //!
-//! `.usdc` and `.usd` hold the same prims in binary, written by this module as well: what openusd 0.6
-//! writes, Pixar's library refuses.
+//! `.usdc` and `.usd` hold the same prims in binary, written by this module as well: what openusd
+//! 0.6 writes, Pixar's library refuses.
 //!
 //! # Broken files
 //!
 //! openusd trusts the counts and offsets of binary files, so every layer is checked before it sees
-//! it (see `usd/stage/crate_file.rs`), and text is held to a depth of nesting that its recursive parser
-//! survives. What indexing errors are left in it end as an error, not as a panic of the caller.
+//! it (see `usd/stage/crate_file.rs`), and text is held to a depth of nesting that its recursive
+//! parser survives. What indexing errors are left in it end as an error, not as a panic of the
+//! caller.
 
 pub(crate) mod binary;
 mod primvars;
@@ -97,8 +98,8 @@ use crate::{EncodeError, ParseError, WriteOptions};
 ///
 /// # Errors
 ///
-/// If the file cannot be read, is not a USD layer, the feature `usd` is off, or holds curves whose counts do not match. A
-/// stage without curves is a groom without strands.
+/// If the file cannot be read, is not a USD layer, the feature `usd` is off, or holds curves whose
+/// counts do not match. A stage without curves is a groom without strands.
 pub fn read(path: &Path) -> Result<Groom, ParseError> {
     stage::read(path, None)
 }

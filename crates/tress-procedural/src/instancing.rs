@@ -1,8 +1,8 @@
 //! Instancing: strands blended from the guides about them [IPG 3].
 //!
-//! `x_{i,j} = r_i + sum_k w_{ik} (g_{k,j} - g_{k,0})`, the weights of a strand summing to 1, `r_i` its
-//! root. By default they fall with the distance of the roots, in the scalp's texture coordinates
-//! where both sides have them and in space where not:
+//! `x_{i,j} = r_i + sum_k w_{ik} (g_{k,j} - g_{k,0})`, the weights of a strand summing to 1, `r_i`
+//! its root. By default they fall with the distance of the roots, in the scalp's texture
+//! coordinates where both sides have them and in space where not:
 //! `w = exp(-d^2 / sigma^2)`, normalised.
 
 use glam::DVec3;

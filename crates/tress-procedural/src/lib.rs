@@ -1,9 +1,9 @@
 //! Procedural grooms, forward and backward [IPG].
 //!
 //! A procedural groom is a few guides, strands instanced from them, and a chain of operators that
-//! scale, clump, bend, curl and frizz the strands: what artists edit. Forward, a groom is built from
-//! its description, bit for bit the same every time. Backward, the description is found for strands
-//! that have none.
+//! scale, clump, bend, curl and frizz the strands: what artists edit. Forward, a groom is built
+//! from its description, bit for bit the same every time. Backward, the description is found for
+//! strands that have none.
 //!
 //! `[IPG]`: Chang et al., "Transforming Unstructured Hair Strands into Procedural Hair Grooms", ACM
 //! Transactions on Graphics 44(4), 2025. Equation numbers are the paper's own.

@@ -37,6 +37,7 @@ const fn slopes() -> [f64; PERIOD + 1] {
 #[inline(always)]
 fn cell(x: f64) -> (f64, f64, f64) {
     let (bits, t) = floor(x);
+    #[expect(clippy::cast_possible_truncation, reason = "below the period")]
     let i = (bits & (PERIOD as u64 - 1)) as usize;
     (SLOPES[i], SLOPES[i + 1], t)
 }

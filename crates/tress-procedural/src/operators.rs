@@ -3,9 +3,10 @@
 //! An operator moves the points of one strand, given the operator guide the strand belongs to and
 //! the strand's stored random numbers `u`. In the symbols of [IPG appendix A], a strand has points
 //! `x_0 .. x_{m-1}`, segments `e_j = x_{j+1} - x_j` of lengths `l_j`, arc lengths
-//! `s_j = l_0 + .. + l_{j-1}`, length `l` and normalized distances `v_j = s_j / l`. (The paper counts
-//! from 1 and prints sums to `j`; for points they are read as sums over the segments before the
-//! point, so that `v` is 0 at the root, where the clump's weight is said to be 0, and 1 at the tip.)
+//! `s_j = l_0 + .. + l_{j-1}`, length `l` and normalized distances `v_j = s_j / l`. (The paper
+//! counts from 1 and prints sums to `j`; for points they are read as sums over the segments before
+//! the point, so that `v` is 0 at the root, where the clump's weight is said to be 0, and 1 at the
+//! tip.)
 //!
 //! The derivative is a vector-Jacobian product: from the gradient of some loss by the points an
 //! operator put out, the gradients by the points it was given, its operator guide, its parameters

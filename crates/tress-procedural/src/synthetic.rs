@@ -1,9 +1,9 @@
 //! Seven grooms with known guides, parameters and numbers, in the manner of [IPG Fig. 7], to
 //! measure fits against.
 //!
-//! The head is a ball of radius 9 (centimetres), hair grows on the upper cap. Guides leave the scalp
-//! and fall, up to the style's length, and sway smoothly over the head. Strands are instanced from
-//! 500 guides; every guide is an operator guide.
+//! The head is a ball of radius 9 (centimetres), hair grows on the upper cap. Guides leave the
+//! scalp and fall, up to the style's length, and sway smoothly over the head. Strands are instanced
+//! from 500 guides; every guide is an operator guide.
 
 use glam::DVec3;
 
@@ -127,7 +127,8 @@ fn guide(root: DVec3, style: &Style) -> impl Iterator<Item = DVec3> {
 /// How many known grooms there are.
 pub const COUNT: usize = STYLES.len();
 
-/// Known groom `style` of [`COUNT`], with the strands of the paper's (at most 30,000) times `share`.
+/// Known groom `style` of [`COUNT`], with the strands of the paper's (at most 30,000) times
+/// `share`.
 ///
 /// ```
 /// use tress_procedural::synthetic::known;

@@ -73,8 +73,8 @@ pub(crate) fn usd_curves(name: &str) -> PyResult<UsdCurves> {
     }
 }
 
-/// Writes an .abc file as Unreal's groom importer wants it: in centimetres, with its parameters, and
-/// with no more points a strand than it takes.
+/// Writes an .abc file as Unreal's groom importer wants it: in centimetres, with its parameters,
+/// and with no more points a strand than it takes.
 ///
 /// Args:
 ///     path: The file.

@@ -7,7 +7,8 @@
 //! `kappa1 = kappa1_h + sum_{1,2} a_i exp(-b_i s^2) cos(c_i s)`,
 //! `kappa2 = sum_{3,4} a_i exp(-b_i s^2) cos(c_i s)`,
 //! `kappa3 = -alpha Re erf(z_3) - (kappa3_h - alpha) Re erf(z_4)`,
-//! `z_i = sqrt(b_i) s + i c_i / (2 sqrt(b_i))`, `alpha = a_3/(2 Gamma) sqrt(pi/b_3) exp(-c_3^2/(4 b_3))`
+//! `z_i = sqrt(b_i) s + i c_i / (2 sqrt(b_i))`,
+//! `alpha = a_3/(2 Gamma) sqrt(pi/b_3) exp(-c_3^2/(4 b_3))`
 //!
 //! (the paper prints an `s` in the denominator of `z`). Nelder and Mead's simplex finds the eleven
 //! that make the least of the greatest energy density [CC 12] at a few places and of how far the

@@ -37,7 +37,8 @@ font-variant-numeric:tabular-nums}\
 th,td{padding:.35rem .9rem;text-align:right;border-bottom:1px solid var(--line)}\
 th{font-weight:500;color:var(--soft)}th:first-child,td:first-child{text-align:left}\
 tr:last-child td{border-bottom:0}.scroll{overflow-x:auto}\
-.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,460px),1fr));gap:1.2rem}\
+.figures{display:grid;gap:1.2rem;\
+grid-template-columns:repeat(auto-fit,minmax(min(100%,460px),1fr))}\
 figure{margin:0;background:var(--panel);border:1px solid var(--line);padding:.7rem;min-width:0}\
 figure svg,figure img{display:block;width:100%;height:auto}\
 figcaption{font-size:.88rem;color:var(--soft);padding:.5rem .2rem 0}";

@@ -68,8 +68,7 @@ fn cases() -> Outcome<Vec<Case>> {
                         let elements = vec![Element { length: turn / 24.0, ..coil }; 18 * 24];
                         let strand = placed(&elements);
                         let at = share * strand.length();
-                        let (changed, there) =
-                            insert_at(&strand, at, &InsertOptions::default())?;
+                        let (changed, there) = insert_at(&strand, at, &InsertOptions::default())?;
                         let spacing = turn / per_turn;
                         let mut add = |strand: &SuperHelix<'_>, truth: Option<f64>| {
                             let points = sampled(strand, spacing, noise * radius, &mut draw);

@@ -12,8 +12,8 @@
 //! | `color` | `groom_color` | vertex | `float32[3]` |
 //! | `roughness`, `ao` | `groom_roughness`, `groom_ao` | vertex | `float32` |
 //!
-//! A column of points takes a uniform place by its row at the root, one of strands a vertex place by
-//! being the same at all points.
+//! A column of points takes a uniform place by its row at the root, one of strands a vertex place
+//! by being the same at all points.
 
 use tress_alembic::{Numbers, Parameter, Scope, Values};
 use tress_geometry::{Column, Groom, names};

@@ -1,13 +1,13 @@
 //! Fewer points for a strand, where its segments stay near it.
 //!
 //! A segment of length `h` on a curve of curvature `k` misses it by `k h^2 / 8`. Misses are equal
-//! where `h` goes with `k^(-1/2)`, so points are spread with the density `k^(1/2)`; what that leaves
-//! uneven is evened out by making segments that miss by more shorter, a few times over.
+//! where `h` goes with `k^(-1/2)`, so points are spread with the density `k^(1/2)`; what that
+//! leaves uneven is evened out by making segments that miss by more shorter, a few times over.
 //!
 //! On a coil of radius `r` with `n` points a turn, segments between points on the coil miss it by
 //! `g = r (1 - c)`, `c = cos(pi / n)`, all inside. Moved outside by `g / (2 c)` a point's segments
-//! miss half as much, `r (1 - c) / 2`, in their middles as at their ends: the best that segments can
-//! do. At 255 points for 60 turns that is 13 % of the radius instead of 26 %.
+//! miss half as much, `r (1 - c) / 2`, in their middles as at their ends: the best that segments
+//! can do. At 255 points for 60 turns that is 13 % of the radius instead of 26 %.
 
 use glam::DVec3;
 use tress_geometry::curves::{CubicBasis, phantom_end};

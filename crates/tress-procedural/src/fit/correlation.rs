@@ -1,14 +1,14 @@
 //! How strands go together, measured as a determinantal point process does [IPG 13 - 18].
 //!
-//! Of a patch of neighbouring strands a kernel `K_ab = exp(-d_ab / sigma)` is made, `d` the square of
-//! the difference of lengths (for scale) or the mean distance of points over that of roots (for
+//! Of a patch of neighbouring strands a kernel `K_ab = exp(-d_ab / sigma)` is made, `d` the square
+//! of the difference of lengths (for scale) or the mean distance of points over that of roots (for
 //! clump). `log det K` is large when the strands of a patch are unlike and small when they are
 //! alike. Averaged over patches it falls or rises steadily with the one parameter it stands for, so
-//! the parameter is where target and model agree: a root, found by bisection with the model's random
-//! numbers kept, where [IPG] takes 1,000 steps of Adam on the square of the difference.
+//! the parameter is where target and model agree: a root, found by bisection with the model's
+//! random numbers kept, where [IPG] takes 1,000 steps of Adam on the square of the difference.
 //!
-//! `sigma` is the median of `d` over the target's pairs (the paper's 0.1 presumes a head of about one
-//! unit), and a hundredth is added to the diagonal, below which equal strands are noise.
+//! `sigma` is the median of `d` over the target's pairs (the paper's 0.1 presumes a head of about
+//! one unit), and a hundredth is added to the diagonal, below which equal strands are noise.
 
 use glam::DVec3;
 use nalgebra::DMatrix;

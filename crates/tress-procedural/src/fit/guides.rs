@@ -11,10 +11,10 @@
 //! one sweep from the tip for all of them.
 //!
 //! One target is one draw of what its guide may give, so the gradient is noisy; neighbouring guides
-//! are alike, so it is smoothed over them: `(I + lambda L) g' = g`, `L` the Laplacian of the Delaunay
-//! triangulation of the guides' roots with weights `exp(-|t_a - t_b|^2 / (2 sigma_d^2))` by root
-//! directions `t`, so that nothing is smoothed over a parting. (An implicit form of the bilateral
-//! gradient filter of Chang et al. 2024.) Steps are Adam's.
+//! are alike, so it is smoothed over them: `(I + lambda L) g' = g`, `L` the Laplacian of the
+//! Delaunay triangulation of the guides' roots with weights `exp(-|t_a - t_b|^2 / (2 sigma_d^2))`
+//! by root directions `t`, so that nothing is smoothed over a parting. (An implicit form of the
+//! bilateral gradient filter of Chang et al. 2024.) Steps are Adam's.
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
@@ -272,7 +272,8 @@ fn edges(roots: &Roots) -> Vec<(usize, usize)> {
     edges
 }
 
-/// Roots on a plane: directions from their middle, by angle from the upmost (azimuthal equidistant).
+/// Roots on a plane: directions from their middle, by angle from the upmost (azimuthal
+/// equidistant).
 fn flattened(positions: &[DVec3]) -> Vec<delaunator::Point> {
     let n = positions.len().max(1) as f64;
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);

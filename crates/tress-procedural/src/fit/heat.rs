@@ -70,7 +70,8 @@ impl Smoothing {
             points[j + 1] = before;
         }
         for j in (1..last).rev() {
-            points[j] = points[j] - factors[j - 1] * points[j + 1];
+            let behind = points[j + 1];
+            points[j] -= factors[j - 1] * behind;
         }
     }
 }
@@ -81,10 +82,8 @@ mod tests {
 
     #[test]
     fn a_step_solves_the_implicit_equation() {
-        let strand: Vec<DVec3> = (0..30)
-            .map(|j| f64::from(j))
-            .map(|s| DVec3::new(s, (2.0 * s).sin(), s.cos()))
-            .collect();
+        let strand: Vec<DVec3> =
+            (0..30).map(f64::from).map(|s| DVec3::new(s, (2.0 * s).sin(), s.cos())).collect();
         let smoothing = Smoothing { lambda: 0.7, steps: 1, fixed: 0.1 };
         let mut out = strand.clone();
         smoothing.apply(&mut out);

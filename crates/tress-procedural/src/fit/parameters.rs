@@ -1,7 +1,8 @@
 //! The parameters of the operators [IPG 5.5], in few, good steps.
 //!
 //! The paper alternates three losses for up to 9,000 steps of Adam. Here random numbers and slices
-//! are drawn once and kept, which makes every loss a smooth function of a handful of parameters, and
+//! are drawn once and kept, which makes every loss a smooth function of a handful of parameters,
+//! and
 //!
 //! 1. each parameter is first looked for over its whole range, the others
 //!    held (a start may be as far off as it likes);

@@ -1,16 +1,16 @@
 //! The sliced Wasserstein loss on segments and on their spectra [IPG 11, 12], as least squares.
 //!
 //! Two sets of strands are compared as distributions: every strand gives one number a slice, the
-//! projection of its segments, or of the absolute values of their Fourier transform, on a direction;
-//! the numbers of either set are sorted, and the differences of equal ranks are what is to vanish.
-//! Ranks are averaged in [`RANKS`] blocks. That is a sum of squares, so that a few parameters are
-//! found by Gauss-Newton steps and not by thousands of gradient steps.
+//! projection of its segments, or of the absolute values of their Fourier transform, on a
+//! direction; the numbers of either set are sorted, and the differences of equal ranks are what is
+//! to vanish. Ranks are averaged in [`RANKS`] blocks. That is a sum of squares, so that a few
+//! parameters are found by Gauss-Newton steps and not by thousands of gradient steps.
 //!
 //! Departures from the paper, each because it measured better: segments are taken relative to the
 //! strand's instanced guide and in the frame of the guide's root, so that what varies over the head
-//! is not in the way of what varies from strand to strand; slices reach over a random stretch of the
-//! strand (or band of frequencies) where the paper's reach over all of it, so that the start of a
-//! curl and its frequency show in some of them; and each slice is divided by the spread of the
+//! is not in the way of what varies from strand to strand; slices reach over a random stretch of
+//! the strand (or band of frequencies) where the paper's reach over all of it, so that the start of
+//! a curl and its frequency show in some of them; and each slice is divided by the spread of the
 //! target's numbers.
 
 use glam::{DMat3, DVec3};

@@ -133,6 +133,7 @@ impl Curl {
         let turns = self.turns(at.numbers[0]);
         let (steep, _) = Self::onset(at.convention);
         let mut by_turns = 0.0;
+        #[expect(clippy::needless_range_loop, reason = "many arrays run along")]
         for j in 1..strand.len() {
             let (z, sine, cosine) = (scratch.weight[j], scratch.sine[j], scratch.cosine[j]);
             let (s, by_x, [n, b]) = (scratch.arc[j], gradient[j], at.normals[j]);

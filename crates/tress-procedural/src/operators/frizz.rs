@@ -91,6 +91,7 @@ impl Frizz {
         let [first, second] = octaves(at.convention);
         let last = strand.len() - 1;
         let mut index = 0.0;
+        #[expect(clippy::needless_range_loop, reason = "many arrays run along")]
         for j in 1..=last {
             index += 1.0;
             let s = scratch.weight[j];

@@ -1,12 +1,10 @@
 //! What a fit did, as a page: losses and parameters over its steps, and pictures side by side.
 
 use tress::geometry::Groom;
-use tress::procedural::fit::{Record, Stage};
 use tress::procedural::ProceduralGroom;
+use tress::procedural::fit::{Record, Stage};
 use tress::view::plot::{Layer, Plot};
-use tress::view::{
-    Bounds, Coloring, Page, Panel, RenderOptions, Size, png, render_within, sheet,
-};
+use tress::view::{Bounds, Coloring, Page, Panel, RenderOptions, Size, png, render_within, sheet};
 
 use crate::failure::Failure;
 use crate::report::short;
@@ -71,8 +69,8 @@ fn pictures(target: &Groom, groom: &ProceduralGroom) -> Result<Vec<u8>, Failure>
     let options = RenderOptions { size: Size::new(480, 480), ..RenderOptions::default() };
     let grooms = [(target, "target"), (&groom.build_groom()?, "recovered"), (&guides, "guides")];
     let bounds = Bounds::around(target.strands().points().iter().copied());
-    let images = grooms
-        .map(|(groom, _)| render_within(groom, bounds, &Coloring::Natural, &options));
+    let images =
+        grooms.map(|(groom, _)| render_within(groom, bounds, &Coloring::Natural, &options));
     let [a, b, c] = images;
     let images = [a?, b?, c?];
     let panels = images.iter().zip(grooms).map(|(image, (_, caption))| Panel { image, caption });

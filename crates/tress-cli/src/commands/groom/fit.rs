@@ -193,8 +193,9 @@ fn describe(
     report.say("flawed", line);
     for operator in &groom.chain.operators {
         let values = operator.parameters().iter().zip(operator.values());
-        let values: Vec<String> =
-            values.map(|(parameter, value)| format!("{} {}", parameter.name, short(value))).collect();
+        let values: Vec<String> = values
+            .map(|(parameter, value)| format!("{} {}", parameter.name, short(value)))
+            .collect();
         report.say(operator.name(), values.join(", "));
     }
     Ok(())

@@ -17,7 +17,7 @@ fn grid() -> EvenStrands {
 fn the_sweep_agrees_with_differences() {
     let guide = grid().strand(7).to_vec();
     let weights: Vec<DVec3> =
-        (0..20).map(|j| f64::from(j)).map(|x| DVec3::new(x.sin(), x.cos(), 0.3 * x)).collect();
+        (0..20).map(f64::from).map(|x| DVec3::new(x.sin(), x.cos(), 0.3 * x)).collect();
     let loss =
         |guide: &[DVec3]| -> f64 { guide.iter().zip(&weights).map(|(x, w)| x.dot(*w)).sum() };
     let (mut turning, mut length) = (vec![DVec3::ZERO; 19], vec![DVec3::ZERO; 19]);
