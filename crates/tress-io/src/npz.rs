@@ -68,7 +68,18 @@ pub fn read(bytes: &[u8]) -> Result<Groom, ParseError> {
     Ok(groom.in_space(unit, up))
 }
 
-/// All arrays of floating-point numbers: for each its name, shape and numbers in C order.
+/// An array of an archive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FloatArray {
+    /// Its name, without `.npy`.
+    pub name: String,
+    /// How long it is along each of its axes.
+    pub shape: Vec<usize>,
+    /// Its numbers in C order.
+    pub values: Vec<f64>,
+}
+
+/// All arrays of floating-point numbers.
 ///
 /// They are ordered by the number that ends their name, as in `arr_2` and `arr_10`, which is the
 /// order in which numpy stored them, and by name.
@@ -76,7 +87,7 @@ pub fn read(bytes: &[u8]) -> Result<Groom, ParseError> {
 /// # Errors
 ///
 /// If the bytes are no zip archive, or if an array is broken.
-pub fn float_arrays(bytes: &[u8]) -> Result<Vec<(String, Vec<usize>, Vec<f64>)>, ParseError> {
+pub fn float_arrays(bytes: &[u8]) -> Result<Vec<FloatArray>, ParseError> {
     let mut archive = Archive::open(bytes)?;
     let names = archive.0.file_names().filter_map(|name| name.strip_suffix(".npy"));
     let mut names: Vec<String> = names.map(str::to_owned).collect();
@@ -90,7 +101,7 @@ pub fn float_arrays(bytes: &[u8]) -> Result<Vec<(String, Vec<usize>, Vec<f64>)>,
         let Some(bytes) = archive.bytes(&name)? else { continue };
         let array = Array::read(&bytes).map_err(|error| in_part(&name, error))?;
         if let Numbers::Float(values) = array.numbers() {
-            arrays.push((name, array.shape, values));
+            arrays.push(FloatArray { name, shape: array.shape, values });
         }
     }
     Ok(arrays)

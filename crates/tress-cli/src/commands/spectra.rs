@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use tress::fit::{Harmonic, Spectra};
 use tress::geometry::Strands;
-use tress::io::npz;
+use tress::io::npz::{self, FloatArray};
 
 use crate::args::Everywhere;
 use crate::failure::Failure;
@@ -98,28 +98,25 @@ pub(crate) fn read(files: &[PathBuf], step: f64, progress: &Progress) -> Result<
     }
 }
 
-/// An array's name, shape and numbers.
-type Array = (String, Vec<usize>, Vec<f64>);
-
 /// One spectrum of each pair of arrays, of harmonics x 2 each.
-fn paired(amplitudes: &[Array], phases: &[Array], step: f64) -> Result<Spectra, String> {
+fn paired(amplitudes: &[FloatArray], phases: &[FloatArray], step: f64) -> Result<Spectra, String> {
     if amplitudes.len() != phases.len() {
         let (n, m) = (phases.len(), amplitudes.len());
         return Err(format!("{n} arrays of phases for {m} of amplitudes"));
     }
     let mut harmonics = Strands::default();
     let mut samples = Vec::new();
-    for ((name, shape, a), (_, other, p)) in amplitudes.iter().zip(phases) {
-        let &[n, 2] = shape.as_slice() else {
-            return Err(format!("{name} is not an array of harmonics x 2"));
+    for (a, p) in amplitudes.iter().zip(phases) {
+        let &[n, 2] = a.shape.as_slice() else {
+            return Err(format!("{} is not an array of harmonics x 2", a.name));
         };
-        if shape != other {
-            return Err(format!("{name} is of another shape than its amplitudes"));
+        if a.shape != p.shape {
+            return Err(format!("{} is of another shape than its amplitudes", p.name));
         }
-        let rows = a.chunks_exact(2).zip(p.chunks_exact(2));
+        let rows = a.values.chunks_exact(2).zip(p.values.chunks_exact(2));
         let own = rows.map(|(a, p)| Harmonic { amplitude: pair(a), phase: pair(p) });
         harmonics.push(own).map_err(|error| error.to_string())?;
-        samples.push(n_samples(n, p));
+        samples.push(n_samples(n, &p.values));
     }
     let steps = vec![step; samples.len()];
     Spectra::new(harmonics, samples, steps).map_err(|error| error.to_string())
