@@ -83,7 +83,7 @@ impl Axis {
         let (mut direction, mut speed) = (Vec::with_capacity(n), Vec::with_capacity(n));
         let mut offset = Vec::with_capacity(n);
         for k in 0..n {
-            let half = half_window(0.25 * periods[k]);
+            let half = half_window(0.5 * periods[k]);
             let (a, b) = (k.saturating_sub(half), (k + half).min(n - 1));
             let ahead = (center[b] - center[a]) / (b - a) as f64;
             let step = strand[b.min(a + 1)].distance(strand[a]);
