@@ -18,10 +18,11 @@ fn skip(why: &str) {
     let _ = writeln!(std::io::stderr(), "skipped: {why}");
 }
 
-/// One strand, of numbers that no format can squeeze.
+/// Strands of at most 100 points, of numbers that no format can squeeze.
 fn groom(points: usize) -> Groom {
     let points: Vec<DVec3> = (0..points).map(|i| DVec3::splat((i as f64).sin())).collect();
-    Groom::new(Strands::from_counts([points.len()], points).expect("their own count"))
+    let counts: Vec<usize> = points.chunks(100).map(<[DVec3]>::len).collect();
+    Groom::new(Strands::from_counts(counts, points).expect("their own counts"))
 }
 
 /// What is in a folder.
