@@ -95,10 +95,10 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    fn coil(turns: f64, per_turn: f64) -> Stations {
-        let n = (turns * per_turn) as u32;
+    fn coil(turns: u32, per_turn: u32) -> Stations {
+        let n = turns * per_turn;
         let point = |i: u32| {
-            let a = TAU * f64::from(i) / per_turn;
+            let a = TAU * f64::from(i) / f64::from(per_turn);
             DVec3::new(a.cos(), a.sin(), 0.2 * a)
         };
         Stations::through(&(0..=n).map(point).collect::<Vec<_>>()).expect("a strand").0
@@ -107,10 +107,10 @@ mod tests {
     #[test]
     fn a_coil_is_a_peak_at_its_frequency_whatever_its_sampling() {
         let per_length = 1.0 / (TAU * 1.0_f64.hypot(0.2));
-        for per_turn in [8.0, 16.0, 32.0] {
+        for per_turn in [8, 16, 32] {
             let mut spectrum = Spectrum::default();
             let mut spectra = Spectra::default();
-            let coil = coil(24.0, per_turn);
+            let coil = coil(24, per_turn);
             let (power, length) = coil.tangent_power(&mut spectra);
             spectrum.add(power, length);
             assert!(frizz(power, 24.0) < 1e-3, "{}", frizz(power, 24.0));

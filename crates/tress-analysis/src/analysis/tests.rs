@@ -7,16 +7,15 @@ use super::*;
 use crate::Hand;
 
 /// A strand whose radius, pitch and axis vary, of so many points a turn; 14 turns.
-fn varied(per_turn: f64) -> Vec<DVec3> {
-    let n = (14.0 * per_turn) as u32;
+fn varied(per_turn: u32) -> Vec<DVec3> {
     let point = |i: u32| {
-        let turn = f64::from(i) / per_turn;
+        let turn = f64::from(i) / f64::from(per_turn);
         let (sine, cosine) = (TAU * turn).sin_cos();
         let radius = 0.5 * (1.0 + 0.2 * (0.5 * turn).sin());
         let sway = DVec3::new(0.0, (0.2 * turn).sin(), 0.3 * (0.15 * turn).cos());
         DVec3::new(0.5 * turn + 0.2 * (0.4 * turn).sin(), radius * cosine, radius * sine) + sway
     };
-    (0..=n).map(point).collect()
+    (0..=14 * per_turn).map(point).collect()
 }
 
 fn groom(strands: &[Vec<DVec3>]) -> Groom {
@@ -29,9 +28,9 @@ fn groom(strands: &[Vec<DVec3>]) -> Groom {
 
 #[test]
 fn values_do_not_depend_on_the_sampling() {
-    let fine = Analysis::of(&groom(&[varied(32.0)]));
+    let fine = Analysis::of(&groom(&[varied(32)]));
     for coarser in [8_u32, 16] {
-        let coarse = Analysis::of(&groom(&[varied(f64::from(coarser))]));
+        let coarse = Analysis::of(&groom(&[varied(coarser)]));
         let step = 32 / coarser as usize;
         for ((name, a), (_, b)) in fine.along.columns().into_iter().zip(coarse.along.columns()) {
             let size = a.iter().map(|x| x.abs()).fold(0.0, f64::max);
@@ -86,7 +85,7 @@ fn straight_hair_is_zero_and_no_curve_is_nan() {
 
 #[test]
 fn polylines_and_their_super_helices_are_analysed_alike() {
-    let groom = groom(&[varied(12.0)]);
+    let groom = groom(&[varied(12)]);
     let fitted = tress_fit::fit(&groom, &tress_fit::FitOptions::default()).expect("a curve");
     let (a, b) = (Analysis::of(&groom), Analysis::of_helices(&fitted.helices));
     let [a, b] = [&a, &b].map(|x| x.strands[0].expect("a curve"));
@@ -98,7 +97,7 @@ fn polylines_and_their_super_helices_are_analysed_alike() {
 
 #[test]
 fn threads_do_not_change_a_bit() {
-    let strands: Vec<Vec<DVec3>> = (0..70).map(|i| varied(6.0 + f64::from(i % 5))).collect();
+    let strands: Vec<Vec<DVec3>> = (0..70).map(|i| varied(6 + i % 5)).collect();
     let groom = groom(&strands);
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");

@@ -101,9 +101,9 @@ fn a_coil_is_found_where_it_begins_half_way() {
     });
     let w = wind(&half);
     assert!((w.turns() - 10.0).abs() < 0.8, "{}", w.turns());
-    let at = |part: f64| (part * (w.rate.len() - 1) as f64) as usize;
-    assert_eq!((w.radius[at(0.2)], w.rate[at(0.2)]), (0.0, 0.0));
-    assert!((w.radius[at(0.8)] - 0.5).abs() < 0.01 && 0.99 < w.circularity[at(0.8)]);
+    let at = |tenths: usize| tenths * (w.rate.len() - 1) / 10;
+    assert_eq!((w.radius[at(2)], w.rate[at(2)]), (0.0, 0.0));
+    assert!((w.radius[at(8)] - 0.5).abs() < 0.01 && 0.99 < w.circularity[at(8)]);
 }
 
 #[test]
