@@ -21,36 +21,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         let known = known(style, share)?;
         let target = known.groom.build_groom()?;
         println!("{} ({} strands)", known.name, target.strands().len());
-        if std::env::var("TRUE_GUIDES").is_ok() {
-            let mut groom = known.groom.clone();
-            groom.chain = known.start.clone();
-            groom.seed = 77;
-            groom.numbers.clear();
-            groom.draw_missing();
-            let targets = known.groom.build()?;
-            let sound: Vec<usize> = (0..targets.len()).collect();
-            let options: tress_procedural::fit::ParameterOptions = match std::env::var("PARAMS") {
-                Ok(text) => ron::from_str(&text)?,
-                Err(_) => Default::default(),
-            };
-            tress_procedural::fit::fit_parameters(
-                &mut groom,
-                &targets,
-                &sound,
-                &options,
-                &mut |loss, operators| println!("{loss:.5} {operators:?}"),
-            )?;
-            println!("{:?}", known.groom.chain.operators);
-            continue;
-        }
-        let options: StageOptions = match std::env::var("FIT_OPTIONS") {
-            Ok(text) => ron::from_str(&text)?,
-            Err(_) => StageOptions { own_weights: false, ..StageOptions::default() },
-        };
-        let mut fitter = match std::env::var("FIT_FROM_TRUTH") {
-            Ok(_) => Fitter::new(&target, known.groom.chain.clone(), options)?,
-            Err(_) => Fitter::new(&target, known.start.clone(), options)?,
-        };
+        let options = StageOptions { own_weights: false, ..StageOptions::default() };
+        let mut fitter = Fitter::new(&target, known.start.clone(), options)?;
         while fitter.stage() != Stage::Numbers {
             let (stage, started) = (fitter.stage(), Instant::now());
             let (mut first, mut last, mut steps) = (None, 0.0, 0);
