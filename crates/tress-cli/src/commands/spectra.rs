@@ -139,8 +139,8 @@ fn n_samples(harmonics: usize, phases: &[f64]) -> u32 {
 mod tests {
     use super::*;
 
-    fn array(shape: &[usize], values: &[f64]) -> Array {
-        ("arr_0".into(), shape.to_vec(), values.to_vec())
+    fn array(shape: &[usize], values: &[f64]) -> FloatArray {
+        FloatArray { name: "arr_0".into(), shape: shape.to_vec(), values: values.to_vec() }
     }
 
     #[test]

@@ -54,7 +54,7 @@ impl Default for ParameterOptions {
             steps: 8,
             rounds: 3,
             patches: 24,
-            correlate: true,
+            correlate: false,
         }
     }
 }
