@@ -35,6 +35,9 @@ impl Pattern {
         let text = argument.to_str()?;
         let (before, rest) = text.split_once('%')?;
         let (digits, after) = rest.split_once('d')?;
+        if after.starts_with(char::is_alphanumeric) {
+            return None;
+        }
         let digits = match digits {
             "" => 1,
             _ => digits.strip_prefix('0')?.parse().ok().filter(|n| (1..=9).contains(n))?,
@@ -133,7 +136,7 @@ impl Sequence {
     /// Runs the command on every frame.
     pub(crate) fn run(&self, asked: &Cli) -> Result<Report, Failure> {
         let frames = self.frames(asked)?;
-        self.check_output(asked)?;
+        self.check_output()?;
         let first = frames[0];
         let bar = progress(frames.len(), asked);
         let done: Vec<Result<Report, Failure>> = frames
@@ -154,8 +157,9 @@ impl Sequence {
     }
 
     /// Frames written to the same file would leave the last one of them.
-    fn check_output(&self, asked: &Cli) -> Result<(), Failure> {
-        let Some(output) = asked.command.output() else { return Ok(()) };
+    fn check_output(&self) -> Result<(), Failure> {
+        let any = self.parse();
+        let Some(output) = any.command.output() else { return Ok(()) };
         if self.patterns.iter().any(|(_, pattern)| Path::new(&pattern.name(0)) == output) {
             return Ok(());
         }

@@ -128,7 +128,6 @@ fn mistakes_are_told_in_one_line_and_leave_files_alone() {
         ("info groom.docx", 1, "unknown extension .docx"),
         ("info broken.data", 1, "broken.data: byte"),
         ("convert groom.obj groom.obj", 1, "--in-place"),
-        ("convert groom.obj out.usdc", 1, ".usda"),
         ("convert groom.obj nowhere/out.hair", 1, "nowhere/out.hair"),
         ("convert groom.obj out.tfx", 1, "--points"),
         ("ruffle groom.obj out.obj --groups wisp", 1, "no attribute of strands is called"),
