@@ -19,9 +19,11 @@ pub(crate) struct Stations {
 /// Stations a turn, at least, where the turns are those that the bending amounts to.
 const PER_TURN: f64 = 32.0;
 
-/// Least and most stations: powers of two, for the sake of the transform. Fewer blur waves that
-/// bend little; more than 128 turns are beyond hair.
+/// Least and most stations. Fewer blur waves that bend little; more than 128 turns are beyond hair.
 const COUNT: [usize; 2] = [256, 4096];
+
+/// Counts are multiples of this, for the sake of the transform: few lengths, of small factors.
+const MULTIPLE: usize = 64;
 
 /// Arcs that bend so many times as far as the segments do have looped somewhere.
 const MOST_BENDING: f64 = 1.5;
@@ -99,5 +101,5 @@ fn count(bending: f64) -> Option<usize> {
     let wanted = (PER_TURN * bending / TAU).clamp(COUNT[0] as f64, COUNT[1] as f64);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held above")]
     let wanted = wanted as usize;
-    Some(wanted.next_power_of_two().min(COUNT[1]))
+    Some(wanted.next_multiple_of(MULTIPLE))
 }

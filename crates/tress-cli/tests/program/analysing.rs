@@ -22,7 +22,8 @@ fn analyze_says_and_writes_what_a_groom_is_like() {
     assert!((0.4..0.7).contains(&radius), "coil radius {radius}");
     let millimetres = json["coil_diameter_mm"].as_f64().expect("the unit is known");
     assert!((millimetres - 20.0 * radius).abs() < 1e-9);
-    assert_eq!(json["wisps"]["wisps"], 4, "the fixture has four");
+    let locked = json["wisps"]["phase_locked"]["median"].as_f64().expect("a share");
+    assert!((0.05..1.0).contains(&locked), "strands of a wisp stray from each other: {locked}");
 
     let strands = text(&bench.path("strands.csv"));
     assert_eq!(strands.lines().count(), 21);
@@ -81,7 +82,10 @@ fn a_browser_shows_the_report_whole() {
     let bench = Bench::new();
     bench.done("analyze groom.obj --unit cm --html report.html");
     let html = text(&bench.path("report.html"));
-    assert!(!html.contains("NaN") && !html.contains("src=\"http") && !html.contains("href="));
+    // What is between the pictures' bytes.
+    let words = html.split("base64,").map(|part| part.split_once('"').map_or(part, |(_, w)| w));
+    let words: String = words.collect();
+    assert!(!words.contains("NaN") && !html.contains("src=\"http"), "{words}");
     let Some(browser) = browser() else {
         eprintln!("no Chromium is installed: the report is not opened");
         return;
