@@ -16,7 +16,7 @@ use tress_edit::strand_rng;
 pub enum Assignment {
     /// The guide whose root is nearest: partings along Voronoi cells, as of box braids.
     Nearest,
-    /// One of so many nearest guides, all as likely: the noisy Voronoi assignment of [CC].
+    /// One of so many nearest guides, all as likely: the noisy Voronoi assignment of \[CC\].
     Noisy(usize),
     /// One of so many nearest guides, likely as the inverse of the distance: partings blur, and a
     /// root at a guide's own root follows that guide.
@@ -120,7 +120,7 @@ fn choose(near: &[NearestNeighbour<f64, u32>], rule: Assignment, seed: u64, root
 }
 
 /// The guide of each root from a groupings file: a line for each guide, the indices of its roots
-/// between commas. This is the file of the authors of [CC].
+/// between commas. This is the file of the authors of \[CC\].
 ///
 /// ```
 /// use tress_grow::read_groups;

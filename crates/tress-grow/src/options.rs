@@ -61,7 +61,7 @@ pub enum SkipUnit {
     /// Points of the guide, each by itself, as published: turns are cut short.
     #[default]
     Points,
-    /// Whole turns: what [CC] Fig. 5 shows, a hair that leaves the coil and comes back a turn on.
+    /// Whole turns: what [CC Fig. 5] shows, a hair that leaves the coil and comes back a turn on.
     Turns,
 }
 

@@ -7,7 +7,7 @@
 //!
 //! `c(i, j) = max(min(c(i-1, j), c(i-1, j-1), c(i, j-1)), d(i, j))`.
 //!
-//! [GH] describes the least *sum* of leashes in the same breath; that is [`least_total_leash`].
+//! \[GH\] describes the least *sum* of leashes in the same breath; that is [`least_total_leash`].
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Generalized helicoids: one hair that knows its neighbours [GH].
+//! Generalized helicoids: one hair that knows its neighbours \[GH\].
 //!
 //! A *generalized helicoid* is a field of directions with four parameters. One line of its flow is
 //! a hair; the lines beside it are the hairs of its wisp. Several joined end to end by their frames

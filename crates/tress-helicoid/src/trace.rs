@@ -1,7 +1,7 @@
 //! Tracing: the line of flow through the root [GH 3].
 //!
 //! The line is the solution of `p' = E_T(theta(p), phi(p))`, cycles of `theta` counted on the way.
-//! [GH] walks it by forward Euler. That bends every coil open: on a circle each step leaves along
+//! \[GH\] walks it by forward Euler. That bends every coil open: on a circle each step leaves along
 //! the tangent, so the radius grows by `h/2` a radian whatever else is done. The default is
 //! therefore Dormand and Prince's pair of orders 5 and 4 ("A family of embedded Runge-Kutta
 //! formulae", 1980) with the step chosen by the pair's difference and positions between steps from

@@ -21,7 +21,7 @@ use crate::{HelicoidGroom, PHelicoid, SampleError, TraceError, Tracing};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WispOptions {
-    /// Hairs of a wisp, the guide first. Default 256, as in the figures of [GH].
+    /// Hairs of a wisp, the guide first. Default 256, as in the figures of \[GH\].
     pub hairs: usize,
     /// Radius of the disc of roots, in the groom's unit. Default 0.05.
     pub radius: f64,

@@ -4,8 +4,8 @@
 //! and in each group at most 2^22 - 1 strands and 2^24 - 1 points. [`write()`] turns and scales a
 //! groom whose axis and unit are known, gives strands with more points fewer (see [`Placement`]),
 //! and says how far the segments that Unreal draws are then from the hair. The version of the
-//! schema stands in the user properties of the topmost transform. See [`alembic`](crate::alembic)
-//! for the rest of the file; the parameters are
+//! schema stands in the user properties of the topmost transform. The module [`alembic`] has the
+//! rest of the file; the parameters are
 //!
 //! | column | parameter | scope | type |
 //! |---|---|---|---|

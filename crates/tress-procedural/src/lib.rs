@@ -1,4 +1,4 @@
-//! Procedural grooms, forward and backward [IPG].
+//! Procedural grooms, forward and backward \[IPG\].
 //!
 //! A procedural groom is a few guides, strands instanced from them, and a chain of operators that
 //! scale, clump, bend, curl and frizz the strands: what artists edit. Forward, a groom is built

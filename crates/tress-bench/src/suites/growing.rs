@@ -235,7 +235,7 @@ fn leaning(guides: &Strands<DVec3>) -> Strands<DVec3> {
     moved
 }
 
-/// The head of [CC] Table 1: 8,546 guides, 233,933 hairs, about 13.1 million points.
+/// The head of [CC Table 1]: 8,546 guides, 233,933 hairs, about 13.1 million points.
 fn head(figures: &mut Figures, program: &Path, folder: &Path) -> Outcome {
     let (guides, roots) = head_files(folder)?;
     let out = folder.join("head.hair");

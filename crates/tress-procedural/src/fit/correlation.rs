@@ -5,7 +5,7 @@
 //! clump). `log det K` is large when the strands of a patch are unlike and small when they are
 //! alike. Averaged over patches it falls or rises steadily with the one parameter it stands for, so
 //! the parameter is where target and model agree: a root, found by bisection with the model's
-//! random numbers kept, where [IPG] takes 1,000 steps of Adam on the square of the difference.
+//! random numbers kept, where \[IPG\] takes 1,000 steps of Adam on the square of the difference.
 //!
 //! `sigma` is the median of `d` over the target's pairs (the paper's 0.1 presumes a head of about
 //! one unit), and a hundredth is added to the diagonal, below which equal strands are noise.
