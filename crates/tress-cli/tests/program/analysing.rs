@@ -78,6 +78,7 @@ fn browser() -> Option<&'static str> {
 }
 
 #[test]
+#[expect(clippy::print_stderr, reason = "a test that is skipped says so")]
 fn a_browser_shows_the_report_whole() {
     let bench = Bench::new();
     bench.done("analyze groom.obj --unit cm --html report.html");
