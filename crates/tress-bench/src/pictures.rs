@@ -21,8 +21,10 @@ use crate::Outcome;
 use crate::grooms::root;
 use crate::metric::say;
 
+type Maker = fn() -> Outcome;
+
 /// What is pictured, and what makes the pictures of it.
-const MAKERS: [(&str, fn() -> Outcome); 7] = [
+const MAKERS: &[(&str, Maker)] = &[
     ("demo", demo),
     ("ruffling", ruffling::make),
     ("blending", blending::make),

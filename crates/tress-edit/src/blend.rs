@@ -2,9 +2,8 @@
 //!
 //! *Curvature*: curvatures and lengths are mixed element by element. A coil between two coils is a
 //! coil: bends open and close, nothing shrinks. *Darboux*: the world vectors `W = F q` are mixed
-//! and
-//! the chain is walked with them; *position*: points are mixed. Both of these let opposite bends
-//! cancel, which flattens coils half way; they are here to show it and for comparison.
+//! and the chain is walked with them; *position*: points are mixed. Both of these let opposite
+//! bends cancel, which flattens coils half way; they are here to show it and for comparison.
 
 use glam::{DMat3, DQuat, DVec3};
 use rayon::prelude::*;

@@ -1,9 +1,8 @@
 //! Recoil: tighter or looser, wider or narrower coils.
 //!
 //! An element is an arc of a helix of radius `R = k / |q|^2` that rises by `h = k0 / |q|^2` for
-//! each
-//! radian it turns; its spatial frequency is `omega = 1 / h` [CSE 12]. A coil of radius `x R` and
-//! frequency `y omega` has
+//! each radian it turns; its spatial frequency is `omega = 1 / h` [CSE 12]. A coil of radius `x R`
+//! and frequency `y omega` has
 //!
 //! `k' = R' / (R'^2 + h'^2)`, `k0' = h' / (R'^2 + h'^2)` with `R' = x R`, `h' = h / y`,
 //!

@@ -95,8 +95,8 @@ impl RuffleOptions {
 ///
 /// let coil = |radius, n| vec![Element { length: 0.1, ..Element::coil(radius, 0.3) }; n];
 /// let elements = [coil(0.5, 40), coil(0.7, 40)].concat();
-/// let groom = HelixGroom::new(vec![Frame::IDENTITY; 2], Strands::from_counts([40, 40],
-/// elements)?)?;
+/// let elements = Strands::from_counts([40, 40], elements)?;
+/// let groom = HelixGroom::new(vec![Frame::IDENTITY; 2], elements)?;
 /// let options = RuffleOptions { probability: 0.5, keep: 10, ..Default::default() };
 /// let (ruffled, report) = ruffle(&groom, &[0, 0], &options, 7)?;
 /// assert_eq!(ruffled.strand(0).elements[..10], groom.strand(0).elements[..10]);

@@ -106,10 +106,9 @@ impl SuperHelix<'_> {
 /// (`k1 = 0`, `k2 > 0` in the mean); the curve stays as it is.
 ///
 /// Where the frame stands about the tangent is not a matter of shape: all curvatures `(k1, k2)` of
-/// a
-/// strand turn together with it. Fixed by the strand's own bend, curvatures do not change when the
-/// strand is moved or turned, and those of strands alike in shape are alike, so that they can be
-/// exchanged and mixed. A strand that does not bend is left as it is.
+/// a strand turn together with it. Fixed by the strand's own bend, curvatures do not change when
+/// the strand is moved or turned, and those of strands alike in shape are alike, so that they can
+/// be exchanged and mixed. A strand that does not bend is left as it is.
 ///
 /// ```
 /// use glam::DVec3;

@@ -4,9 +4,9 @@
 //! frame behind element `j` turns by the world vector `F_j L_j dq_j` about the joint `p_{j+1}`, and
 //! all that lies beyond goes with it, as with a robot's arm:
 //!
-//! `dS(lambda)/dq_j = F_j D_j - [S(lambda) - p_{j+1}]x F_j L_j` for elements wholly before
-//! `lambda`,
-//! `dS(lambda)/dq_i = F_i D(q_i, s)` for the element `i` that holds `lambda`.
+//! - `dS(lambda)/dq_j = F_j D_j - [S(lambda) - p_{j+1}]x F_j L_j` where element `j` lies wholly
+//!   before `lambda`,
+//! - `dS(lambda)/dq_i = F_i D(q_i, s)` for the element `i` that holds `lambda`.
 //!
 //! That is `O(N M)` for `M` points on `N` elements, where [CSE 17-26] and Algorithms 1-2 fill
 //! `O(N^2)` tables. The product `J^T r` needs no Jacobian at all: with `f` the sum of the `r_k`

@@ -3,8 +3,7 @@
 //!
 //! The arithmetic of a lane does not know its neighbours: a strand's result is the same to the bit
 //! in any lane and beside any other strand. Machines with and without fused products and sums
-//! differ
-//! in the last digits.
+//! differ in the last digits.
 //!
 //! Every function is inlined, because `pulp` compiles what is inlined into its dispatched function
 //! for the instruction set it finds at run time, and nothing else.

@@ -2,8 +2,7 @@
 //!
 //! Two frames of one simulation: the same strands before and after they sagged. The strands before
 //! are fitted and sculpted to M points of those after; what is measured is the distance of all
-//! points
-//! to where they truly went.
+//! points to where they truly went.
 
 use tress::optimize::SculptOptions;
 

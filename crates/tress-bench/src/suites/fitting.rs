@@ -248,7 +248,7 @@ fn pieces(figures: &mut Figures) -> Outcome {
         };
         let elements: Vec<Element> = (0..n).map(element).collect();
         let strand = SuperHelix { root: Frame::IDENTITY, elements: &elements };
-        let mut points = vec![DVec3::ZERO; (14.0 * strand.length()) as usize];
+        let mut points = vec![DVec3::ZERO; 19 * n];
         strand.sample_evenly(&mut points);
         strands.push(points)?;
         truth += n;

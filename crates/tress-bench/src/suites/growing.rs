@@ -139,9 +139,7 @@ fn swatch(figures: &mut Figures, program: &Path, folder: &Path) -> Outcome {
     let Some(theirs) = real("curlycue_swatch70_seed1337.obj") else { return Ok(()) };
     let (ours, theirs) =
         (grooms::polylines(&folder.join("swatch.obj"))?, grooms::polylines(&theirs)?);
-    let quantities: [(&str, fn(&Groom) -> Vec<f64>); 4] =
-        [("length", lengths), ("turns", turns), ("radius", radii), ("neighbours", neighbours)];
-    for (name, quantity) in quantities {
+    for (name, quantity) in QUANTITIES {
         let (ours, theirs) = (quantity(&ours), quantity(&theirs));
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
         let distance = wasserstein(&ours, &theirs).ok_or("a groom without strands")?;
@@ -151,6 +149,12 @@ fn swatch(figures: &mut Figures, program: &Path, folder: &Path) -> Outcome {
     }
     Ok(())
 }
+
+type Quantity = fn(&Groom) -> Vec<f64>;
+
+/// What grown hair and the authors' are compared by.
+const QUANTITIES: [(&str, Quantity); 4] =
+    [("length", lengths), ("turns", turns), ("radius", radii), ("neighbours", neighbours)];
 
 fn lengths(groom: &Groom) -> Vec<f64> {
     groom.strands().iter().map(polyline::length).collect()

@@ -62,8 +62,8 @@ pub(crate) fn run(args: &ArmatureArgs, everywhere: &Everywhere) -> Result<Report
 /// What a pose file says to whoever opens it.
 const HEADER: &str = "\
 // The rest pose of a groom. Move a joint by its `translate` (in the groom's unit), turn it by
-// `rotate` (degrees about x, y, z), stretch it by `scale`; then `tress sculpt ... --pose` this
-// file.
+// `rotate` (degrees about x, y, z), stretch it by `scale`; then give this file to `tress sculpt`
+// as its `--pose`.
 // `at` is the place along the strands, 0 at the root and 1 at the tip.
 ";
 

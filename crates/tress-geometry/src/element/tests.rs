@@ -52,6 +52,14 @@ proptest! {
 }
 
 #[test]
+fn many_turns_in_one_element_leave_the_frame_orthonormal() {
+    // 25 turns, where the angle that is reduced has lost two digits.
+    let q = DVec3::new(0.0, 0.0, -85.111_790_320_980_65);
+    let element = Element { curvature: q, length: 1.870_639_991_443_196_1 };
+    assert!(element.advance(&Frame::IDENTITY).orthonormality_error() < 1e-14);
+}
+
+#[test]
 fn a_coil_has_the_radius_pitch_and_hand_it_was_made_with() {
     for (radius, pitch) in [(0.57, 0.3), (0.57, -0.3), (2.0, 0.0), (0.01, 5.0)] {
         let coil = Element { length: 1.0, ..Element::coil(radius, pitch) };
