@@ -157,7 +157,7 @@ mod tests {
         let here = along(&k, h);
         let turning = here.turning(&k).expect("clear");
         let e = 1e-6;
-        for j in 0..4 {
+        for (j, by_j) in turning.into_iter().enumerate() {
             let (up, down) = (with(&k, j, e), with(&k, j, -e));
             let (a, b) = (along(&up, h), along(&down, h));
             let slope = (a.position - b.position) / (2.0 * e);
@@ -165,7 +165,7 @@ mod tests {
             let turned = (up.frame(a.theta) - down.frame(b.theta)) * (0.5 / e);
             let spin = turned * k.frame(here.theta).transpose();
             let vector = DVec3::new(spin.y_axis.z, spin.z_axis.x, spin.x_axis.y);
-            assert!(vector.distance(turning[j]) < 1e-7, "parameter {j}: {vector}");
+            assert!(vector.distance(by_j) < 1e-7, "parameter {j}: {vector}");
         }
     }
 
