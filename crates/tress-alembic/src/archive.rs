@@ -3,12 +3,14 @@
 use std::collections::HashMap;
 use std::io::{Seek, Write};
 
+use rayon::prelude::*;
+
 use crate::chunks::Chunks;
+use crate::curves;
 use crate::error::Error;
 use crate::object::{self, Node};
-use crate::property::Compound;
-use crate::samples::{Samples, Written};
-use crate::schema::{self, CurvesSample, Kind, Schema, Scope};
+use crate::samples::{Encoded, Samples, Written};
+use crate::schema::{self, CurvesSample, Kind, Schema};
 use crate::texts::Texts;
 use crate::values::{Numbers, Values};
 
@@ -87,7 +89,7 @@ impl<W: Write + Seek> Archive<W> {
         let xform = nodes[object.0].schema()?;
         let mut scalar = |name: &str, values: &Values<'_>| {
             let samples = xform.samples(name, || scalar(values, 0))?;
-            Ok::<_, Error>(samples.push(values, out, written)?)
+            Ok::<_, Error>(samples.push_scalar(values, out, written)?)
         };
         scalar(".inherits", &schema::YES)?;
         if let Some(matrix) = matrix {
@@ -117,7 +119,7 @@ impl<W: Write + Seek> Archive<W> {
         let basis = Values { numbers: Numbers::U8(&bytes), extent: 4, interpretation: "" };
         let geometry = nodes[object.0].schema()?;
         let samples = geometry.samples("curveBasisAndType", || scalar(&basis, 0))?;
-        samples.push(&basis, out, written)?;
+        samples.push_scalar(&basis, out, written)?;
         Ok(object)
     }
 
@@ -144,7 +146,7 @@ impl<W: Write + Seek> Archive<W> {
             return Err(Error::Taken(name.into()));
         }
         let samples = properties.samples(name, || scalar(&values, 0))?;
-        Ok(samples.push(&values, out, written)?)
+        Ok(samples.push_scalar(&values, out, written)?)
     }
 
     /// Writes the next sample of curves.
@@ -154,44 +156,38 @@ impl<W: Write + Seek> Archive<W> {
     /// If counts, points and rows of parameters do not match each other or the first sample, or the
     /// stream does not take it.
     pub fn write_curves(&mut self, curves: Object, sample: &CurvesSample<'_>) -> Result<(), Error> {
-        check_sample(sample)?;
+        curves::check(sample)?;
         let Self { out, written, nodes, .. } = self;
         let node = nodes.get_mut(curves.0).filter(|node| node.schema == Some(schema::CURVES));
         let node = node.ok_or(Error::NoObject)?;
         let (time, index) = (node.time, node.samples);
+        let arrays = curves::arrays(sample);
+        // What takes long beside the disk: a look at every number.
+        let (bounds, encoded) = rayon::join(
+            || schema::bounds(sample.points),
+            || arrays.par_iter().map(|array| Encoded::new(&array.values)).collect::<Vec<_>>(),
+        );
         let geometry = node.schema()?;
-        let mut array = |compound: &mut Compound, name: &str, meta_data, values: &Values<'_>| {
-            if !compound.has(name) && 0 < index {
-                return Err(Error::Changed(name.into()));
+        for (array, encoded) in arrays.iter().zip(&encoded) {
+            let compound = if array.is_parameter {
+                geometry.compound(".arbGeomParams", "")?
+            } else {
+                &mut *geometry
+            };
+            let changed = || Error::Changed(array.name.into());
+            if !compound.has(array.name) && 0 < index {
+                return Err(changed());
             }
-            let make = || (meta_data, Samples::array(values, time));
-            let samples = compound.samples(name, make)?;
-            if !samples.take(values) || samples.len() != index {
-                return Err(Error::Changed(name.into()));
+            let make = || (array.meta_data.clone(), Samples::array(&array.values, time));
+            let samples = compound.samples(array.name, make)?;
+            if !samples.take(&array.values) || samples.len() != index {
+                return Err(changed());
             }
-            Ok(samples.push(values, out, written)?)
-        };
-        let points = Values::points(sample.points);
-        array(geometry, "P", points.meta_data(Scope::Vertex), &points)?;
-        let counts = Values::scalars(Numbers::I32(sample.counts));
-        array(geometry, "nVertices", String::new(), &counts)?;
-        if let Some((scope, widths)) = sample.widths {
-            let widths = Values::scalars(Numbers::F32(widths));
-            array(geometry, "width", widths.parameter_meta_data(scope), &widths)?;
+            samples.push(encoded, out, written)?;
         }
-        if let Some((scope, uvs)) = sample.uvs {
-            let uvs = Values::rows(Numbers::F32(uvs.as_flattened()), 2);
-            array(geometry, "uv", uvs.parameter_meta_data(scope), &uvs)?;
-        }
-        for given in sample.parameters {
-            let compound = geometry.compound(".arbGeomParams", "")?;
-            let meta_data = given.values.parameter_meta_data(given.scope);
-            array(compound, given.name, meta_data, &given.values)?;
-        }
-        let bounds = schema::bounds(sample.points);
         let bounds = Values::bounds(&bounds);
         let samples = geometry.samples(".selfBnds", || scalar(&bounds, time))?;
-        samples.push(&bounds, out, written)?;
+        samples.push_scalar(&bounds, out, written)?;
         node.samples += 1;
         Ok(())
     }
@@ -237,42 +233,9 @@ fn scalar(values: &Values<'_>, time: u32) -> (String, Samples) {
     (values.meta_data(None), Samples::scalar(values, time))
 }
 
-fn check_name(name: &str) -> Result<(), Error> {
+pub(crate) fn check_name(name: &str) -> Result<(), Error> {
     let is_odd = |c: char| c == '/' || c.is_control();
     if name.is_empty() || name.contains(is_odd) { Err(Error::Name(name.into())) } else { Ok(()) }
-}
-
-/// Whether counts, points and rows of parameters match.
-fn check_sample(sample: &CurvesSample<'_>) -> Result<(), Error> {
-    let (curves, points) = (sample.counts.len(), sample.points.len());
-    let sizes = sample.counts.iter().map(|&count| usize::try_from(count).unwrap_or(0));
-    let counted = sizes.fold(0, usize::saturating_add);
-    if counted != points || sample.counts.iter().any(|&count| count < 0) {
-        return Err(Error::Counts { counted, points });
-    }
-    let check = |name: &str, scope: Scope, rows: usize| {
-        let expected = match scope {
-            Scope::Constant => rows,
-            Scope::Uniform => curves,
-            Scope::Vertex => points,
-        };
-        let error = || Error::Rows { name: name.into(), rows, expected };
-        if rows == expected { Ok(()) } else { Err(error()) }
-    };
-    if let Some((scope, widths)) = sample.widths {
-        check("width", scope, widths.len())?;
-    }
-    if let Some((scope, uvs)) = sample.uvs {
-        check("uv", scope, uvs.len())?;
-    }
-    for (i, parameter) in sample.parameters.iter().enumerate() {
-        check_name(parameter.name)?;
-        if sample.parameters[..i].iter().any(|other| other.name == parameter.name) {
-            return Err(Error::Taken(parameter.name.into()));
-        }
-        check(parameter.name, parameter.scope, parameter.values.len())?;
-    }
-    Ok(())
 }
 
 /// For each time sampling the most samples that a property of it has, its step, and the one time

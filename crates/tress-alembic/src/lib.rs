@@ -46,6 +46,7 @@
 //! | 128-bit digests by which readers' caches know samples again | `digest` |
 //! | values over time, and properties that hold them | `samples`, `property` |
 //! | objects, the schemas `AbcGeom_Xform_v3` and `AbcGeom_Curve_v2` | `object`, `schema` |
+//! | the arrays of a sample of curves | `curves` |
 //! | header, time samplings, texts that headers share | `archive`, `texts` |
 //!
 //! The layout is that of Alembic 1.8's `AbcCoreOgawa`, followed byte by byte in archives of the C++
@@ -54,6 +55,7 @@
 
 mod archive;
 mod chunks;
+mod curves;
 mod digest;
 mod error;
 mod object;

@@ -5,6 +5,7 @@
 //! differ from the one before. Values that stand in the file already, of whatever property, are
 //! shared.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::{self, Seek, Write};
 
@@ -29,6 +30,22 @@ struct Sample {
     dimensions: Address,
     rows: usize,
     digest: Digest,
+}
+
+/// Values as the file holds them, and the digest that stands before them.
+#[derive(Debug)]
+pub(crate) struct Encoded<'a> {
+    bytes: Cow<'a, [u8]>,
+    rows: usize,
+    digest: Digest,
+}
+
+impl<'a> Encoded<'a> {
+    pub(crate) fn new(values: &Values<'a>) -> Self {
+        let bytes = values.bytes();
+        let digest = digest(&bytes);
+        Self { bytes, rows: values.len(), digest }
+    }
 }
 
 /// Values that are in the file already, by what they hold.
@@ -60,22 +77,31 @@ impl Samples {
         self.data_type == values.data_type()
     }
 
-    /// Writes the next sample.
-    pub(crate) fn push<W: Write + Seek>(
+    /// Writes the next sample, of a scalar.
+    pub(crate) fn push_scalar<W: Write + Seek>(
         &mut self,
         values: &Values<'_>,
         out: &mut Chunks<W>,
         written: &mut Written,
     ) -> io::Result<()> {
-        let (mut bytes, mut rows) = (values.bytes(), values.len());
-        if self.is_scalar && 1 < rows {
-            (bytes, rows) = (values.first().bytes(), 1);
-        }
-        let key = (digest(&bytes), self.data_type, bytes.len());
+        let row = if 1 < values.len() { values.first() } else { *values };
+        self.push(&Encoded::new(&row), out, written)
+    }
+
+    /// Writes the next sample.
+    pub(crate) fn push<W: Write + Seek>(
+        &mut self,
+        values: &Encoded<'_>,
+        out: &mut Chunks<W>,
+        written: &mut Written,
+    ) -> io::Result<()> {
+        let Encoded { bytes, rows, digest } = values;
+        let (rows, digest) = (*rows, *digest);
+        let key = (digest, self.data_type, bytes.len());
         let data = match written.get(&key) {
             _ if bytes.is_empty() => Address::NO_DATA,
             Some(&address) => address,
-            None => out.data(&key.0, &bytes)?,
+            None => out.data(&digest, bytes)?,
         };
         written.insert(key, data);
         // How many rows there are follows from the size, unless they are texts.
@@ -84,7 +110,7 @@ impl Samples {
         } else {
             Address::NO_DATA
         };
-        self.samples.push(Sample { data, dimensions, rows, digest: key.0 });
+        self.samples.push(Sample { data, dimensions, rows, digest });
         Ok(())
     }
 
