@@ -64,8 +64,8 @@ impl Default for PatchOptions {
 /// ```
 /// use tress_fixtures::{PatchOptions, coily_patch};
 ///
-/// let groom = coily_patch(&PatchOptions { wisps: 2, strands_per_wisp: 3, ..Default::default() },
-/// 1);
+/// let options = PatchOptions { wisps: 2, strands_per_wisp: 3, ..PatchOptions::default() };
+/// let groom = coily_patch(&options, 1);
 /// assert_eq!(groom.strands().len(), 6);
 /// let root = groom.strands().strand(0)[0];
 /// assert!((root.length() - 9.0).abs() < 1e-9, "roots lie on the head");

@@ -11,7 +11,10 @@
 //!
 //! The angle `phi` is the one number left, and [`crate::shoot`] finds it. Solutions come in
 //! families, by how far apart the two are; this is the closest. It is followed from a coil where
-//! its angle is known to the one asked for, in small steps of frequency and twist at rest.
+//! its angle is known to the one asked for, in strides of frequency and twist at rest that shorten
+//! where it turns. Where it ends the two changes of hand have met and are gone: for a rod at rest
+//! untwisted below a frequency of 0.4, for a twisted one outside of a band that begins a little
+//! above its frequency at rest.
 
 use glam::DVec3;
 
@@ -46,41 +49,52 @@ const ORIGIN: f64 = 0.6;
 /// Angles there for Poisson's ratios 0, 0.25 and 0.5.
 const ANGLES: [f64; 3] = [-0.7102, -0.6946, -0.6853];
 
-/// Steps of frequency or twist at rest by which a solution is followed.
-const STRIDE: f64 = 0.01;
+/// The first and the longest stride by which a solution is followed, in frequency or twist at rest.
+const STRIDES: [f64; 2] = [0.02, 0.05];
+
+/// A solution that shorter strides would be needed for has come to its end.
+const LEAST_STRIDE: f64 = 1e-4;
+
+/// How far the angle may be from where it is expected: farther off is another solution.
+const NEAR: f64 = 0.01;
 
 impl DoubleSwitchback {
     /// The double switchback of the coil of frequency `v`.
     ///
     /// # Errors
     ///
-    /// If there is no coil of this frequency, if it is not pulled, or if no solution was found.
-    /// Found are those of frequencies from 0.4 to 0.9 of rods that rest untwisted, and of 0.5 to
-    /// 0.6 of rods that rest twisted by up to half of their curvature the same way.
+    /// If there is no coil of this frequency, if it is not pulled, or if there is no solution.
+    /// There are for frequencies from 0.4 to 0.9 where the rod rests untwisted; from 0.3 to 0.6,
+    /// 0.45 to 0.65, 0.6 to 0.7 where its twist at rest is 0.2, 0.4, 0.6 the same way.
     pub fn new(v: f64, material: &Material) -> Result<Self, SwitchbackError> {
         let coil = Coil::new(v, material)?;
         // Solved for a right-handed coil; the other is its mirror image.
         let (target, twist) = (v.abs(), material.rest_twist * v.signum());
-        let span = (target - ORIGIN).abs().max(twist.abs());
-        let strides = (span / STRIDE).ceil().max(1.0);
+        let on_the_way = |part: f64, expected: f64| {
+            let material = Material { rest_twist: twist * part, ..*material };
+            let coil = Coil::new(ORIGIN + (target - ORIGIN) * part, &material).ok()?;
+            let (angle, half) = solve(&coil, &material, expected)?;
+            let both_hands = half.at(0.0)[2] < 0.0;
+            (both_hands && (angle - expected).abs() < NEAR).then_some((angle, half))
+        };
         let not_found = SwitchbackError::NotFound { v };
-        let mut angle = start(material.poisson_ratio);
-        let (mut change, mut half) = (0.0, None);
-        let mut i = 0.0;
-        while i <= strides {
-            let part = i / strides;
-            let rest_twist = twist * part;
-            let material = Material { rest_twist, ..*material };
-            let coil = Coil::new(ORIGIN + (target - ORIGIN) * part, &material)?;
-            let (found, solved) = solve(&coil, &material, angle + change).ok_or(not_found)?;
-            change = if i == 0.0 { 0.0 } else { found - angle };
-            (angle, half) = (found, Some(solved));
-            i += 1.0;
-        }
-        let half = half.ok_or(not_found)?;
-        // Followed too far, the two changes of hand meet and are gone.
-        if 0.0 <= half.at(0.0)[2] {
-            return Err(not_found);
+        let (mut angle, mut half) =
+            on_the_way(0.0, start(material.poisson_ratio)).ok_or(not_found)?;
+        let span = (target - ORIGIN).abs().max(twist.abs());
+        let [mut stride, longest] = STRIDES.map(|stride| stride / span);
+        let (mut part, mut slope) = (0.0, 0.0);
+        while part < 1.0 {
+            let next = f64::min(part + stride, 1.0);
+            if let Some((found, solved)) = on_the_way(next, angle + slope * (next - part)) {
+                slope = (found - angle) / (next - part);
+                (part, angle, half) = (next, found, solved);
+                stride = longest.min(1.5 * stride);
+            } else {
+                stride *= 0.5;
+            }
+            if stride * span < LEAST_STRIDE {
+                return Err(not_found);
+            }
         }
         Ok(Self { coil, half })
     }
@@ -156,6 +170,8 @@ mod tests {
             (0.6, -0.1, 0.3),
             (0.45, 0.1, 0.4),
             (0.55, 0.5, 0.4),
+            (0.3, 0.2, 0.0),
+            (0.75, 0.8, 0.4),
         ] {
             let material = Material { poisson_ratio, rest_twist };
             let double = DoubleSwitchback::new(v, &material).expect("in the band that has one");

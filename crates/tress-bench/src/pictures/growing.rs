@@ -1,7 +1,7 @@
 //! Hairs from guides, as in [CC Figs. 3, 8 and 10 to 12].
 
 use tress::fit::centerline;
-use tress::geometry::glam::DVec3;
+use tress::geometry::glam::{DMat3, DVec3};
 use tress::geometry::{Groom, Strands};
 use tress::grow::{
     Coils, Curve, Density, GrowOptions, Skip, SkipUnit, grow, preset, preset_names, scatter,
@@ -17,7 +17,7 @@ pub(super) fn make() -> Outcome {
     one_wisp()?;
     skipping()?;
     let swatch = Swatch::new(110, 0.5, 9.0, 3000)?;
-    layers(&swatch)?;
+    layers()?;
     skipped_swatches(&swatch)?;
     lengths()?;
     head()
@@ -105,11 +105,22 @@ fn skipping() -> Outcome {
     frame.sheet("skip-wisp.png", 4, &panels)
 }
 
-/// Wisps coherent up to the scalp, and with a spongy layer.
-fn layers(swatch: &Swatch) -> Outcome {
-    let grooms =
-        [swatch.grow(&wig_like())?, swatch.grow(&preset("long-coils").unwrap_or_default())?];
-    let frame = Frame::around(&grooms, View::Side, (760, 760), 0.02);
+/// A parting's hair, its wisps coherent up to the scalp, and with a spongy layer.
+fn layers() -> Outcome {
+    let mut guides = Strands::default();
+    for i in 0..9_u32 {
+        let aside = DVec3::new(1.1 * f64::from(i), 0.0, 0.0);
+        let turned = DMat3::from_rotation_y(2.4 * f64::from(i));
+        guides
+            .push(hanging(11.0 + 0.5 * f64::from(i % 3)).into_iter().map(|p| aside + turned * p))?;
+    }
+    // Even over a strip, by ratios that no small number divides.
+    let along = |i: u32, ratio: f64| (f64::from(i) * ratio).fract();
+    let root = |i| DVec3::new(9.9 * along(i, 0.618034) - 0.55, 0.0, along(i, 0.414214) - 0.5);
+    let swatch = Swatch { guides, roots: (0..540).map(root).collect() };
+    let phase_locked = GrowOptions { loose: (0.15, 0.45), ..wig_like() };
+    let grooms = [swatch.grow(&wig_like())?, swatch.grow(&phase_locked)?];
+    let frame = Frame::around(&grooms, View::Front, (760, 640), 0.02);
     let panels: Vec<_> = grooms.iter().zip(["coils to the root", "phase locked"]).collect();
     frame.sheet("grow-layers.png", 2, &panels)
 }

@@ -2,10 +2,14 @@
 //! approximation.
 
 use serde::Deserialize;
+use tress::fit::{Elements, FitOptions, Sampling, fit, sample};
 use tress::geometry::glam::DVec3;
+use tress::geometry::{Groom, HelixGroom};
 use tress::switchback::{
-    Material, Profile, Ritz, RitzOptions, Switchback, SwitchbackError, greatest_distance,
+    InsertOptions, Material, Placing, Profile, Ritz, RitzOptions, Switchback, SwitchbackError,
+    greatest_distance, insert,
 };
+use tress_fixtures::{PatchOptions, coily_patch};
 
 use crate::Outcome;
 use crate::grooms::root;
@@ -19,6 +23,7 @@ pub(crate) const NAMES: &[&str] = &[
     "switchback_warm_ms",
     "switchback_ritz_ms",
     "switchback_ritz_distance",
+    "switchback_wisp_spread",
 ];
 
 pub(crate) fn run(figures: &mut Figures) -> Outcome {
@@ -51,7 +56,49 @@ pub(crate) fn run(figures: &mut Figures) -> Outcome {
     }
     figures.add("switchback_ritz_ms", 1e3 * time, "ms", Bar::AtMost(100.0));
     figures.add("switchback_ritz_distance", distance, "rest curvatures", Bar::None);
+    wisps(figures)
+}
+
+/// Strands in a wisp of the measurement below.
+const WISP: usize = 22;
+
+/// Whether wisps stay wisps: how far strands are from their neighbours in the wisp, behind a
+/// switchback in the middle, over how far they were before it was put in.
+fn wisps(figures: &mut Figures) -> Outcome {
+    let options = PatchOptions { wisps: 24, strands_per_wisp: WISP, ..PatchOptions::default() };
+    let elements = Elements::Count(150);
+    let fitted = fit(&coily_patch(&options, 3), &FitOptions { elements, ..FitOptions::default() })?;
+    let groups: Vec<u32> = (0..24).flat_map(|wisp| [wisp; WISP]).collect();
+    let middle = Placing::Shares(vec![0.5]);
+    let inserting = InsertOptions::default();
+    let (changed, report) = insert(&fitted.helices, &groups, &middle, &inserting, 1)?;
+    say(&format!("# {} of {} strands got a switchback", report.strands, report.asked));
+    let points = |helices: &HelixGroom| sample(helices, &Sampling::PerTurn(16.0));
+    let (before, after) = (points(&fitted.helices)?, points(&changed)?);
+    // Wisps that have one on every strand.
+    let mut whole = [0; 24];
+    report.placed.iter().for_each(|(strand, _)| whole[*strand as usize / WISP] += 1);
+    let whole = |wisp: &usize| whole[*wisp] == WISP;
+    let apart = |groom: &Groom| (0..24).filter(whole).map(|i| apart(groom, i)).sum::<f64>();
+    figures.add("switchback_wisp_spread", apart(&after) / apart(&before), "times", Bar::None);
     Ok(())
+}
+
+/// Mean distance from points in the further half of a wisp's strands to the nearest of the others.
+fn apart(groom: &Groom, wisp: usize) -> f64 {
+    let strands = wisp * WISP..(wisp + 1) * WISP;
+    let (mut sum, mut n) = (0.0, 0.0);
+    for i in strands.clone() {
+        let points = groom.strands().strand(i);
+        for here in points[points.len() / 2..].iter().step_by(5) {
+            let others = strands.clone().filter(|other| *other != i);
+            let others = others.flat_map(|other| groom.strands().strand(other));
+            let nearest = others.map(|p| p.distance_squared(*here)).fold(f64::INFINITY, f64::min);
+            sum += nearest.sqrt();
+            n += 1.0;
+        }
+    }
+    sum / n
 }
 
 fn approximations(
