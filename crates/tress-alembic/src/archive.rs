@@ -123,6 +123,38 @@ impl<W: Write + Seek> Archive<W> {
         Ok(object)
     }
 
+    /// Adds an instance: whatever `source` and what lies in it hold, once more under `parent`.
+    ///
+    /// # Errors
+    ///
+    /// If the name is no name or taken, if the instance would lie in what it stands for, or the
+    /// stream does not take it.
+    pub fn add_instance(
+        &mut self,
+        parent: Object,
+        name: &str,
+        source: Object,
+    ) -> Result<Object, Error> {
+        if self.ancestors(source).next().is_none() {
+            return Err(Error::NoObject);
+        }
+        if self.ancestors(parent).any(|index| index == source.0) {
+            return Err(Error::Circular(name.into()));
+        }
+        let object = self.add(parent, name, schema::INSTANCE)?;
+        let mut names: Vec<&str> =
+            self.ancestors(source).map(|index| self.nodes[index].name.as_str()).collect();
+        names.pop();
+        let path: String = names.iter().rev().flat_map(|name| ["/", name]).collect();
+        let Self { out, written, nodes, .. } = self;
+        let texts = [path.as_str()];
+        let path = Values::scalars(Numbers::Text(&texts));
+        let properties = &mut nodes[object.0].properties;
+        let samples = properties.samples(schema::INSTANCE.property, || scalar(&path, 0))?;
+        samples.push_scalar(&path, out, written)?;
+        Ok(object)
+    }
+
     /// Says something of an object that does not change: a scalar among its `.userProperties`. Of
     /// values with several rows the first is written.
     ///
@@ -139,6 +171,7 @@ impl<W: Write + Seek> Archive<W> {
         let Self { out, written, nodes, .. } = self;
         let node = nodes.get_mut(object.0).ok_or(Error::NoObject)?;
         let properties = match node.schema {
+            Some(schema::INSTANCE) => return Err(Error::NoObject),
             Some(_) => node.schema()?.compound(".userProperties", "")?,
             None => &mut node.properties,
         };
@@ -214,11 +247,18 @@ impl<W: Write + Seek> Archive<W> {
         Ok(out.finish(root)?)
     }
 
+    /// The places of an object and of those that it lies in, up to the top; none of an object of
+    /// another archive.
+    fn ancestors(&self, object: Object) -> impl Iterator<Item = usize> {
+        let own = Some(object.0).filter(|index| *index < self.nodes.len());
+        std::iter::successors(own, |index| self.nodes[*index].parent)
+    }
+
     fn add(&mut self, parent: Object, name: &str, schema: Schema) -> Result<Object, Error> {
         check_name(name)?;
-        if self.nodes.len() <= parent.0 {
-            return Err(Error::NoObject);
-        }
+        // What an instance holds, its source holds.
+        let holds = |node: &&Node| node.schema != Some(schema::INSTANCE);
+        self.nodes.get(parent.0).filter(holds).ok_or(Error::NoObject)?;
         let taken = |node: &Node| node.parent == Some(parent.0) && node.name == name;
         if self.nodes.iter().any(taken) {
             return Err(Error::Taken(name.into()));

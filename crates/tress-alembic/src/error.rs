@@ -91,7 +91,22 @@ pub enum Error {
     /// ```
     #[error("parameter {0:?} is not what it was in the first sample")]
     Changed(String),
-    /// An object of another archive, or samples of curves for one that is a transform.
+    /// An instance of what it would lie in.
+    ///
+    /// ```
+    /// # use std::io::Cursor;
+    /// # use tress_alembic::{Archive, Error};
+    /// let mut archive = Archive::new(Cursor::new(Vec::new()), "")?;
+    /// let head = archive.add_transform(archive.top(), "head", None)?;
+    /// let inner = archive.add_transform(head, "inner", None)?;
+    /// let error = archive.add_instance(inner, "again", head).unwrap_err();
+    /// assert!(matches!(error, Error::Circular(name) if name == "again"));
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[error("{0:?} would be an instance of what it lies in")]
+    Circular(String),
+    /// An object of another archive, samples of curves for one that is none, or anything in or of
+    /// an instance.
     ///
     /// ```
     /// # use std::io::Cursor;
@@ -102,7 +117,7 @@ pub enum Error {
     /// assert!(matches!(error, Error::NoObject));
     /// # Ok::<(), Error>(())
     /// ```
-    #[error("the object is not in the archive, or holds no curves")]
+    #[error("the object is not in the archive, or does not hold such things")]
     NoObject,
     /// The stream takes no more.
     #[error(transparent)]

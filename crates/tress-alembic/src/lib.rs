@@ -1,9 +1,9 @@
 //! Alembic curves in Ogawa archives (`.abc`), written and read.
 //!
 //! Knows curves and nothing of what they are curves of. Written are positions, counts, widths,
-//! texture coordinates, any geometry parameters, user properties, transforms above the curves, and
-//! samples over time ([`Archive`]). Read are the objects and properties of any archive, with their
-//! samples ([`Reader`]); what they mean is left to the caller.
+//! texture coordinates, any geometry parameters, user properties, transforms above the curves,
+//! instances, and samples over time ([`Archive`]). Read are the objects and properties of any
+//! archive, with their samples ([`Reader`]); what they mean is left to the caller.
 //!
 //! ```
 //! use std::io::Cursor;

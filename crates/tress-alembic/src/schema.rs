@@ -106,6 +106,10 @@ pub(crate) const CURVES: Schema = Schema {
     meta_data: "schema=AbcGeom_Curve_v2;schemaBaseType=AbcGeom_GeomBase_v1",
 };
 
+/// An object that stands for another one.
+pub(crate) const INSTANCE: Schema =
+    Schema { object: "isInstance=1", property: ".instanceSource", meta_data: "" };
+
 /// The operation that multiplies by a matrix.
 pub(crate) const MATRIX: Values<'static> =
     Values { numbers: Numbers::U8(&[0x30]), extent: 1, interpretation: "" };

@@ -1,6 +1,7 @@
 //! Walking through the bytes of a file without ever trusting a count in it.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::{ParseError, Problem};
 
@@ -115,4 +116,21 @@ pub(crate) fn narrow(value: f64) -> [u8; 4] {
 pub(crate) fn narrow_point(p: DVec3) -> [u8; 12] {
     let ([a, b, c, d], [e, f, g, h], [i, j, k, l]) = (narrow(p.x), narrow(p.y), narrow(p.z));
     [a, b, c, d, e, f, g, h, i, j, k, l]
+}
+
+/// Numbers as the 32-bit floats nearest to them.
+#[expect(clippy::cast_possible_truncation, reason = "narrowing is the point")]
+pub(crate) fn narrow_all(values: &[f64]) -> Vec<f32> {
+    values.par_iter().map(|&value| value as f32).collect()
+}
+
+/// The bytes of values, one after the other.
+pub(crate) fn packed<T: Copy + Sync, const SIZE: usize>(
+    values: &[T],
+    encode: impl Fn(T) -> [u8; SIZE] + Sync,
+) -> Vec<u8> {
+    let mut bytes = vec![0; values.len() * SIZE];
+    let (rows, _) = bytes.as_chunks_mut::<SIZE>();
+    rows.par_iter_mut().zip(values).for_each(|(row, &value)| *row = encode(value));
+    bytes
 }

@@ -253,6 +253,7 @@ fn describe_io(error: &io::Error) -> String {
         io::ErrorKind::IsADirectory => "is a directory, expected a file".into(),
         io::ErrorKind::NotADirectory => "a part of the path is a file, not a directory".into(),
         io::ErrorKind::StorageFull => "no space is left on the disk".into(),
+        io::ErrorKind::ReadOnlyFilesystem => "the disk can only be read".into(),
         _ => error.to_string(),
     }
 }

@@ -6,7 +6,7 @@ mod breakages;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 use proptest::prelude::*;
 use tress_alembic::{Archive, CurvesSample, Kind, Numbers, Parameter, Scope, Values};
 use tress_geometry::{Column, Groom, Strands, UpAxis};
@@ -305,4 +305,45 @@ fn an_archive_of_ours_that_is_broken_is_an_error_or_another_groom() {
             (0..animation.len().min(3)).for_each(|i| drop(animation.read(i)));
         }
     });
+}
+
+#[test]
+fn instances_stand_where_they_are_as_often_as_they_are() {
+    let mut archive = Archive::new(Cursor::new(Vec::new()), "a test").expect("memory");
+    let time = archive.add_time(0.0, 1.0);
+    let moved = |x: f64| {
+        let mut matrix = DMat4::IDENTITY.to_cols_array();
+        matrix[12] = x;
+        matrix
+    };
+    let group = archive.add_transform(archive.top(), "left", Some(&moved(10.0))).expect("a name");
+    let curls = archive.add_transform(group, "curls", Some(&moved(1.0))).expect("a name");
+    let hair = archive.add_curves(curls, "hair", Kind::Linear, time).expect("a name");
+    let sample = CurvesSample {
+        points: &[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.5, 0.0, 0.0]],
+        counts: &[2, 1],
+        parameters: &[Parameter::new("id", Scope::Uniform, Values::scalars(Numbers::I32(&[7, 8])))],
+        ..CurvesSample::default()
+    };
+    archive.write_curves(hair, &sample).expect("rows match");
+    let right = archive.add_transform(archive.top(), "right", Some(&moved(-10.0))).expect("a name");
+    let again = archive.add_instance(right, "again", curls).expect("a name");
+    assert!(archive.add_curves(again, "more", Kind::Linear, time).is_err());
+    archive.add_instance(right, "hair alone", hair).expect("a name");
+    let groom = read_bytes(&archive.finish().expect("memory").into_inner()).expect("an archive");
+    // Left, once more with its own transform, and the curves without it.
+    let roots: Vec<f64> = groom.strands().iter().map(|strand| strand[0].x).collect();
+    assert_eq!(roots, [11.0, 11.5, -9.0, -8.5, -10.0, -9.5]);
+    let column = |name: &str| groom.strand_attributes().get(name).cloned();
+    assert_eq!(column("group"), Some(Column::Int(vec![0, 0, 1, 1, 2, 2])));
+    assert_eq!(column("id"), Some(Column::Int(vec![7, 8, 7, 8, 7, 8])));
+}
+
+#[test]
+fn no_curves_and_curves_of_one_point_are_kept() {
+    for counts in [&[][..], &[0, 0], &[1], &[0, 1, 0, 2, 1]] {
+        let (_dir, path) = animation("a.abc", Frames::default(), &[line(counts, 1.0)]).expect("");
+        let back = alembic::read(&path).expect("our own file");
+        assert_eq!(back.strands(), line(counts, 1.0).strands(), "{counts:?}");
+    }
 }

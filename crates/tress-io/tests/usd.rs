@@ -445,3 +445,116 @@ fn a_text_that_is_animated_has_frames() {
     assert_eq!((animation.len(), animation.frames()), (3, Frames { start: 2.0, rate: 30.0 }));
     assert_eq!(animation.read(9).expect("the last").strands().points(), [DVec3::X * 5.0]);
 }
+
+#[test]
+fn instances_and_groups_stand_where_they_are_as_often_as_they_are() {
+    let text = "def Xform \"library\"
+{
+    double3 xformOp:translate = (100, 0, 0)
+    uniform token[] xformOpOrder = [\"xformOp:translate\"]
+    def Xform \"curls\"
+    {
+        def BasisCurves \"hair\"
+        {
+            int[] curveVertexCounts = [2, 1]
+            point3f[] points = [(0, 0, 0), (0, 1, 0), (0.5, 0, 0)]
+            uniform token type = \"linear\"
+            int[] primvars:id = [7, 8] (interpolation = \"uniform\")
+        }
+    }
+}
+def Xform \"left\" (
+    instanceable = true
+    references = </library/curls>
+)
+{
+    double3 xformOp:translate = (10, 0, 0)
+    uniform token[] xformOpOrder = [\"xformOp:translate\"]
+}
+def Xform \"group\"
+{
+    double3 xformOp:translate = (-20, 0, 0)
+    uniform token[] xformOpOrder = [\"xformOp:translate\"]
+    def Xform \"right\" (
+        instanceable = true
+        references = </library/curls>
+    )
+    {
+        double3 xformOp:translate = (1, 0, 0)
+        uniform token[] xformOpOrder = [\"xformOp:translate\"]
+    }
+}
+";
+    let groom = read(text).expect("a stage");
+    let roots: Vec<f64> = groom.strands().iter().map(|strand| strand[0].x).collect();
+    assert_eq!(roots, [100.0, 100.5, 10.0, 10.5, -19.0, -18.5]);
+    let column = |name: &str| groom.strand_attributes().get(name).cloned();
+    assert_eq!(column("group"), Some(Column::Int(vec![0, 0, 1, 1, 2, 2])));
+    assert_eq!(column("id"), Some(Column::Int(vec![7, 8, 7, 8, 7, 8])));
+}
+
+#[test]
+fn frames_of_any_number_and_columns_are_read_back() {
+    // The tables of a binary file are coded four entries a byte: all remainders, with and without
+    // samples over time.
+    for n_columns in 0..5 {
+        for n_frames in 1..4 {
+            let frame = |i: usize| {
+                let points = vec![DVec3::X * i as f64, DVec3::Y];
+                let mut groom = Groom::new(Strands::from_counts([1, 1], points).expect("two"));
+                groom.insert_point_attribute("width", Column::scalar(vec![0.5; 2])).expect("two");
+                for k in 0..n_columns {
+                    let values = Column::Int(vec![k, k * i as i64]);
+                    groom.insert_strand_attribute(format!("c{k}"), values).expect("two rows");
+                }
+                groom
+            };
+            let (_dir, path) = stage("frames.usdc", "");
+            let grooms = (0..n_frames).map(|i| Ok::<_, WriteError>(frame(i)));
+            write_animation(&path, Frames::default(), &WriteOptions::default(), grooms)
+                .expect("a file");
+            let animation = Animation::open(&path).expect("our own file");
+            assert_eq!(animation.len(), n_frames, "{n_columns} columns");
+            for i in 0..n_frames {
+                let back = animation.read(i).expect("a frame");
+                assert_eq!(back, frame(i), "{n_columns} columns, frame {i} of {n_frames}");
+            }
+        }
+    }
+}
+
+#[test]
+fn no_curves_and_curves_of_one_point_are_kept_in_text_and_binary() {
+    for counts in [&[][..], &[0, 0], &[1], &[0, 1, 0, 2, 1]] {
+        let n = counts.iter().sum::<usize>();
+        let points = (0..n).map(|i| DVec3::Y * i as f64).collect();
+        let groom = Groom::new(Strands::from_counts(counts.to_vec(), points).expect("as counted"));
+        for name in ["a.usda", "a.usdc"] {
+            let (_dir, path) = stage(name, "");
+            tress_io::write(&path, &groom, &WriteOptions::default()).expect("a file");
+            assert_eq!(usd::read(&path).expect("ours").strands(), groom.strands(), "{counts:?}");
+        }
+    }
+}
+
+#[test]
+fn a_frame_may_have_no_strands_or_none_that_stand_anywhere() {
+    let frame = |points: Vec<DVec3>| {
+        let counts = [points.len()].into_iter().filter(|n| 0 < *n);
+        let mut groom = Groom::new(Strands::from_counts(counts, points).expect("its own count"));
+        let rows = groom.strands().len();
+        groom.insert_strand_attribute("width", Column::scalar(vec![0.5; rows])).expect("rows");
+        groom
+    };
+    for name in ["a.usdc", "a.abc"] {
+        let frames = [vec![DVec3::X, DVec3::Y], vec![], vec![DVec3::INFINITY], vec![DVec3::Z]];
+        let (_dir, path) = stage(name, "");
+        let grooms = frames.iter().map(|points| Ok::<_, WriteError>(frame(points.clone())));
+        write_animation(&path, Frames::default(), &WriteOptions::default(), grooms)
+            .expect("all frames");
+        let animation = Animation::open(&path).expect("our own file");
+        for (i, points) in frames.iter().enumerate() {
+            assert_eq!(animation.read(i).expect("a frame").strands().points(), points, "{name}");
+        }
+    }
+}

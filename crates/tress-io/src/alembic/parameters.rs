@@ -19,6 +19,7 @@ use tress_alembic::{Numbers, Parameter, Scope, Values};
 use tress_geometry::{Column, Groom, names};
 
 use crate::EncodeError;
+use crate::binary::narrow_all;
 use crate::columns::{PointValues, Rows, every_point};
 use crate::named::named;
 use crate::widths::is_width;
@@ -174,7 +175,7 @@ impl Field {
             let whole = values.iter().map(|&value| self.whole(value));
             return Ok(Some(Data::I32(whole.collect::<Result<_, _>>()?)));
         }
-        Ok(Some(Data::F32(narrow(&values))))
+        Ok(Some(Data::F32(narrow_all(&values))))
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "what does not fit is refused")]
@@ -202,15 +203,10 @@ fn spell(name: &str) -> String {
 
 fn data(column: &Column) -> Data {
     match column {
-        Column::Float { values, .. } => Data::F32(narrow(values)),
+        Column::Float { values, .. } => Data::F32(narrow_all(values)),
         Column::Int(values) => {
             let short: Result<Vec<i32>, _> = values.iter().map(|&i| i32::try_from(i)).collect();
             short.map_or_else(|_| Data::I64(values.clone()), Data::I32)
         }
     }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "Alembic's parameters have 32 bits")]
-fn narrow(values: &[f64]) -> Vec<f32> {
-    values.iter().map(|&value| value as f32).collect()
 }

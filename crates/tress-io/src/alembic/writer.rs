@@ -3,10 +3,12 @@
 use std::io::{Seek, Write};
 
 use glam::DVec3;
+use rayon::prelude::*;
 use tress_alembic::{Archive, CurvesSample, Error, Kind, Numbers, Object, Scope, Values};
 use tress_geometry::{Column, Groom, UpAxis, names};
 
 use super::parameters::Parameters;
+use crate::binary::narrow_all;
 use crate::widths::Widths;
 use crate::{EncodeError, Frames};
 
@@ -105,22 +107,21 @@ fn points(groom: &Groom) -> Vec<[f32; 3]> {
         Some(UpAxis::Z) => |p| [p.x as f32, p.z as f32, -p.y as f32],
         _ => |p| [p.x as f32, p.y as f32, p.z as f32],
     };
-    groom.strands().points().iter().map(|&point| turn(point)).collect()
+    groom.strands().points().par_iter().map(|&point| turn(point)).collect()
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "Alembic's widths have 32 bits")]
 fn widths(groom: &Groom, names: Names) -> (Scope, Vec<f32>) {
-    let narrow = |values: &[f64]| values.iter().map(|&width| width as f32).collect();
     match Widths::of(groom) {
         // Not constant: Blender passes over widths that are.
         Widths::Constant(width) => (Scope::Uniform, vec![width as f32; groom.strands().len()]),
-        Widths::Vertex(values) => (Scope::Vertex, narrow(values)),
+        Widths::Vertex(values) => (Scope::Vertex, narrow_all(values)),
         // Unreal's own documents call widths by strand untested.
         Widths::Uniform(values) if names == Names::Unreal => {
             let every_point = crate::columns::every_point(groom);
             (Scope::Vertex, every_point.map(|(strand, _)| values[strand] as f32).collect())
         }
-        Widths::Uniform(values) => (Scope::Uniform, narrow(values)),
+        Widths::Uniform(values) => (Scope::Uniform, narrow_all(values)),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Writing an `.npz` archive.
 
-use std::io::{self, Seek, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 
 use tress_geometry::{Attributes, Column, Groom, UpAxis};
 use zip::write::SimpleFileOptions;
@@ -16,7 +16,7 @@ use crate::npy::write_header;
 ///
 /// If the stream takes no more.
 pub fn write(groom: &Groom, out: &mut (impl Write + Seek)) -> Result<(), EncodeError> {
-    let mut archive = Archive(ZipWriter::new(out));
+    let mut archive = Archive(ZipWriter::new(UntilError::new(out)));
     let strands = groom.strands();
     let points = strands.points();
     archive.floats(POSITIONS, &[points.len(), 3], points.iter().flat_map(|p| p.to_array()))?;
@@ -35,6 +35,61 @@ pub fn write(groom: &Groom, out: &mut (impl Write + Seek)) -> Result<(), EncodeE
     archive.table(STRAND, groom.strand_attributes())?;
     archive.0.finish().map_err(io::Error::from)?;
     Ok(())
+}
+
+/// A stream that takes everything once an error is told, and does nothing with it.
+///
+/// An archive that is dropped tries to finish itself, and writes to standard error that it cannot.
+struct UntilError<W> {
+    out: W,
+    failed: bool,
+    /// Where it is, or would be.
+    at: u64,
+}
+
+impl<W> UntilError<W> {
+    fn new(out: W) -> Self {
+        Self { out, failed: false, at: 0 }
+    }
+
+    /// What comes of the stream, or `pretended` after an error.
+    fn unless_failed<T>(
+        &mut self,
+        pretended: T,
+        act: impl FnOnce(&mut W) -> io::Result<T>,
+    ) -> io::Result<T> {
+        if self.failed {
+            return Ok(pretended);
+        }
+        let outcome = act(&mut self.out);
+        let is_lasting = |error: &io::Error| error.kind() != io::ErrorKind::Interrupted;
+        self.failed = outcome.as_ref().is_err_and(is_lasting);
+        outcome
+    }
+}
+
+impl<W: Write> Write for UntilError<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.unless_failed(bytes.len(), |out| out.write(bytes))?;
+        self.at += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.unless_failed((), W::flush)
+    }
+}
+
+impl<W: Seek> Seek for UntilError<W> {
+    fn seek(&mut self, place: SeekFrom) -> io::Result<u64> {
+        let pretended = match place {
+            SeekFrom::Start(at) => at,
+            SeekFrom::Current(by) => self.at.saturating_add_signed(by),
+            SeekFrom::End(_) => self.at,
+        };
+        self.at = self.unless_failed(pretended, |out| out.seek(place))?;
+        Ok(self.at)
+    }
 }
 
 struct Archive<W: Write + Seek>(ZipWriter<W>);

@@ -7,13 +7,20 @@ mod crate_file;
 
 use std::io::{Seek, Write};
 
+use glam::DVec3;
 use tress_geometry::{Column, Groom, UpAxis};
 
-use super::primvars::{self, Rows, primvars};
-use crate::binary::narrow_point;
+use super::primvars::{self, Primvar, Rows, primvars};
+use crate::binary::{narrow, narrow_point, packed};
 use crate::widths::{Extent, Widths};
 use crate::{EncodeError, Frames, UsdCurves};
 use crate_file::{CrateFile, Kind, Rep, Type};
+
+/// What prims that are there, rather than said more of, are specified by.
+const DEF: Rep = Rep::inlined(Type::Specifier, 0);
+
+/// The box around nothing, as USD has it.
+const EMPTY: (DVec3, DVec3) = (DVec3::splat(f32::MAX as f64), DVec3::splat(f32::MIN as f64));
 
 /// A layer that grooms are written to, a frame each.
 pub(crate) struct Writer<W> {
@@ -61,50 +68,59 @@ impl<W: Write + Seek> Writer<W> {
     pub(crate) fn push(&mut self, groom: &Groom) -> Result<(), EncodeError> {
         super::check_counts(groom)?;
         let strands = groom.strands();
-        let counts: Vec<u8> = strands
-            .counts()
-            .flat_map(|count| i32::try_from(count).unwrap_or(i32::MAX).to_le_bytes())
-            .collect();
+        let counts: Vec<i32> =
+            strands.counts().map(|count| i32::try_from(count).unwrap_or(i32::MAX)).collect();
+        let counts = packed(&counts, i32::to_le_bytes);
         self.set(("curveVertexCounts", "int[]", None, 1), Type::Int, strands.len(), counts)?;
-        let mut points = vec![0; strands.points().len() * 12];
-        let (rows, _) = points.as_chunks_mut::<12>();
-        rows.iter_mut().zip(strands.points()).for_each(|(row, &p)| *row = narrow_point(p));
+        let points = packed(strands.points(), narrow_point);
         self.set(("points", "point3f[]", None, 1), Type::Vec3f, strands.points().len(), points)?;
 
-        let widths = Widths::of(groom);
-        if let Some((low, high)) = Extent::of(groom).with(&widths) {
-            let corners = [narrow_point(low), narrow_point(high)].concat();
-            self.set(("extent", "float3[]", None, 1), Type::Vec3f, 2, corners)?;
-        }
-        let (values, rows) = match widths {
-            Widths::Constant(width) => (vec![width], Rows::Constant),
-            Widths::Uniform(values) => (values.to_vec(), Rows::Uniform),
-            Widths::Vertex(values) => (values.to_vec(), Rows::Vertex),
-        };
-        let bytes = floats(&values);
-        self.set(("widths", "float[]", Some(rows), 1), Type::Float, values.len(), bytes)?;
-
+        self.widths(groom)?;
         for primvar in primvars(groom) {
-            let (type_name, kind, components) = types(primvar.kind);
-            let (numbers, bytes) = match (primvar.column, kind) {
-                (Column::Float { values, .. }, _) => (values.len(), floats(values)),
-                (Column::Int(values), Type::Int64) => {
-                    (values.len(), values.iter().flat_map(|i| i.to_le_bytes()).collect())
-                }
-                (Column::Int(values), _) => {
-                    let short = values.iter().map(|&i| i32::try_from(i).unwrap_or(i32::MAX));
-                    (values.len(), short.flat_map(i32::to_le_bytes).collect())
-                }
-            };
-            let name = format!("primvars:{}", primvar.name);
-            let what = (name.as_str(), type_name, Some(primvar.rows), primvar.size);
-            self.set(what, kind, numbers / components, bytes)?;
+            self.primvar(&primvar)?;
         }
         self.written += 1;
         match self.attributes.iter().find(|attribute| attribute.reps.len() != self.written) {
             None => Ok(()),
             Some(attribute) => Err(changed(&attribute.name)),
         }
+    }
+
+    /// Writes the widths, and the box around curves of that width.
+    fn widths(&mut self, groom: &Groom) -> Result<(), EncodeError> {
+        let widths = Widths::of(groom);
+        // What is on one frame must be on all.
+        let nothing = self.frames.map(|_| EMPTY);
+        if let Some((low, high)) = Extent::of(groom).with(&widths).or(nothing) {
+            let corners = [narrow_point(low), narrow_point(high)].concat();
+            self.set(("extent", "float3[]", None, 1), Type::Vec3f, 2, corners)?;
+        }
+        let constant;
+        let (values, rows) = match widths {
+            Widths::Constant(width) => {
+                constant = [width];
+                (constant.as_slice(), Rows::Constant)
+            }
+            Widths::Uniform(values) => (values, Rows::Uniform),
+            Widths::Vertex(values) => (values, Rows::Vertex),
+        };
+        let bytes = packed(values, narrow);
+        self.set(("widths", "float[]", Some(rows), 1), Type::Float, values.len(), bytes)
+    }
+
+    fn primvar(&mut self, primvar: &Primvar<'_>) -> Result<(), EncodeError> {
+        let (type_name, kind, components) = types(primvar.kind);
+        let (numbers, bytes) = match (primvar.column, kind) {
+            (Column::Float { values, .. }, _) => (values.len(), packed(values, narrow)),
+            (Column::Int(values), Type::Int64) => (values.len(), packed(values, i64::to_le_bytes)),
+            (Column::Int(values), _) => {
+                let short = |i| i32::try_from(i).unwrap_or(i32::MAX).to_le_bytes();
+                (values.len(), packed(values, short))
+            }
+        };
+        let name = format!("primvars:{}", primvar.name);
+        let what = (name.as_str(), type_name, Some(primvar.rows), primvar.size);
+        self.set(what, kind, numbers / components, bytes)
     }
 
     /// Writes an attribute's next value.
@@ -140,7 +156,45 @@ impl<W: Write + Seek> Writer<W> {
 
     /// Writes the structure of the layer.
     pub(crate) fn finish(mut self) -> Result<W, EncodeError> {
-        let specifier = Rep::inlined(Type::Specifier, 0);
+        self.root()?;
+        let group = [
+            ("specifier", DEF),
+            ("typeName", self.file.token("Xform")),
+            ("primChildren", self.file.token_vector(&["strands".into()])?),
+        ];
+        self.file.spec(Kind::Prim, "groom", &group);
+
+        let tokens: &[(&str, &str)] = match self.curves {
+            UsdCurves::Linear => &[("type", "linear")],
+            UsdCurves::CatmullRom => {
+                &[("type", "cubic"), ("basis", "catmullRom"), ("wrap", "pinned")]
+            }
+        };
+        let own = tokens.iter().map(|(name, _)| (*name).to_owned());
+        let names = self.attributes.iter().map(|attribute| attribute.name.clone());
+        let names: Vec<String> = own.chain(names).collect();
+        let prim = [
+            ("specifier", DEF),
+            ("typeName", self.file.token("BasisCurves")),
+            ("properties", self.file.token_vector(&names)?),
+        ];
+        self.file.spec(Kind::Prim, "strands", &prim);
+        for (name, value) in tokens {
+            let fields = [
+                ("typeName", self.file.token("token")),
+                ("variability", Rep::inlined(Type::Variability, 1)),
+                ("default", self.file.token(value)),
+            ];
+            self.file.spec(Kind::Attribute, name, &fields);
+        }
+        for attribute in std::mem::take(&mut self.attributes) {
+            self.attribute(&attribute)?;
+        }
+        Ok(self.file.finish()?)
+    }
+
+    /// What the layer says of itself.
+    fn root(&mut self) -> Result<(), EncodeError> {
         let mut fields = vec![
             ("defaultPrim", self.file.token("groom")),
             ("primChildren", self.file.token_vector(&["groom".into()])?),
@@ -160,41 +214,7 @@ impl<W: Write + Seek> Writer<W> {
             fields.push(("framesPerSecond", self.file.double(frames.rate)?));
         }
         self.file.spec(Kind::Root, "", &fields);
-
-        let group = [
-            ("specifier", specifier),
-            ("typeName", self.file.token("Xform")),
-            ("primChildren", self.file.token_vector(&["strands".into()])?),
-        ];
-        self.file.spec(Kind::Prim, "groom", &group);
-
-        let tokens: &[(&str, &str)] = match self.curves {
-            UsdCurves::Linear => &[("type", "linear")],
-            UsdCurves::CatmullRom => {
-                &[("type", "cubic"), ("basis", "catmullRom"), ("wrap", "pinned")]
-            }
-        };
-        let own = tokens.iter().map(|(name, _)| (*name).to_owned());
-        let names = self.attributes.iter().map(|attribute| attribute.name.clone());
-        let names: Vec<String> = own.chain(names).collect();
-        let prim = [
-            ("specifier", specifier),
-            ("typeName", self.file.token("BasisCurves")),
-            ("properties", self.file.token_vector(&names)?),
-        ];
-        self.file.spec(Kind::Prim, "strands", &prim);
-        for (name, value) in tokens {
-            let fields = [
-                ("typeName", self.file.token("token")),
-                ("variability", Rep::inlined(Type::Variability, 1)),
-                ("default", self.file.token(value)),
-            ];
-            self.file.spec(Kind::Attribute, name, &fields);
-        }
-        for attribute in std::mem::take(&mut self.attributes) {
-            self.attribute(&attribute)?;
-        }
-        Ok(self.file.finish()?)
+        Ok(())
     }
 
     fn attribute(&mut self, attribute: &Attribute) -> Result<(), EncodeError> {
@@ -236,8 +256,4 @@ fn types(kind: primvars::Kind) -> (&'static str, Type, usize) {
         primvars::Kind::TexCoord2 => ("texCoord2f[]", Type::Vec2f, 2),
         primvars::Kind::Color3 => ("color3f[]", Type::Vec3f, 3),
     }
-}
-
-fn floats(values: &[f64]) -> Vec<u8> {
-    values.iter().flat_map(|&value| crate::binary::narrow(value)).collect()
 }

@@ -2,8 +2,8 @@
 
 mod crate_file;
 mod curves;
-mod foreign;
 mod layers;
+mod no_panic;
 mod transform;
 mod values;
 
@@ -14,14 +14,14 @@ use tress_geometry::{Groom, UpAxis};
 
 use crate::basis_curves::join;
 use crate::{ParseError, Place, Problem};
-use foreign::{no_panic, one_line};
+use no_panic::{no_panic, one_line};
 
 /// Reads the curves of a stage: at a time code, or at the default, else the first sample, of each
 /// attribute.
 pub(super) fn read(path: &Path, code: Option<f64>) -> Result<Groom, ParseError> {
     let moment = Moment(code.map(usd::TimeCode::new));
     layers::check_root(path)?;
-    no_panic("the USD library", || {
+    no_panic(|| {
         let stage = layers::open(path)?;
         let prims = curve_prims(&stage)?;
         let parts = prims.iter().map(|prim| curves::read(prim, moment));
@@ -35,7 +35,7 @@ pub(super) fn read(path: &Path, code: Option<f64>) -> Result<Groom, ParseError> 
 /// The time codes of the samples of the points of the prim that has most, and their rate.
 pub(super) fn times(path: &Path) -> Result<(Vec<f64>, f64), ParseError> {
     layers::check_root(path)?;
-    no_panic("the USD library", || {
+    no_panic(|| {
         let stage = layers::open(path)?;
         let mut codes: Vec<f64> = Vec::new();
         for prim in curve_prims(&stage)? {

@@ -4,6 +4,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
 use tempfile::{TempDir, tempdir};
@@ -85,15 +86,30 @@ fn a_folder_that_may_not_be_written_says_so() {
 }
 
 /// A disk of 64 KiB, gone when the test ends.
-struct SmallDisk(TempDir);
+///
+/// There is one at a time: a program that is just being started holds the files open that another
+/// test writes, whose space is then not free yet.
+struct SmallDisk(TempDir, #[expect(dead_code, reason = "it is held")] MutexGuard<'static, ()>);
+
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 impl SmallDisk {
     fn new() -> Option<Self> {
+        let alone = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
         let folder = tempdir().expect("a folder");
         let mut mount = Command::new("mount");
         mount.args(["-t", "tmpfs", "-o", "size=64k", "tmpfs"]).arg(folder.path());
         let mounted = mount.output().is_ok_and(|output| output.status.success());
-        mounted.then_some(Self(folder))
+        mounted.then_some(Self(folder, alone))
+    }
+}
+
+impl SmallDisk {
+    /// Whether nothing can be written to it any more.
+    fn lock(&self) -> bool {
+        let mut mount = Command::new("mount");
+        mount.args(["-o", "remount,ro"]).arg(self.0.path());
+        mount.output().is_ok_and(|output| output.status.success())
     }
 }
 
@@ -123,4 +139,24 @@ fn a_full_disk_leaves_the_old_file_and_nothing_else() {
         assert_eq!(names(folder).len(), 1);
         fs::remove_file(path).expect("our own file");
     });
+}
+
+#[test]
+fn a_disk_that_can_only_be_read_keeps_its_files() {
+    let disk = SmallDisk::new().filter(|disk| {
+        write_all(disk.0.path(), &groom(3), |_, written| written.expect("small enough"));
+        disk.lock()
+    });
+    let Some(disk) = disk else {
+        return skip("no small disk can be mounted here");
+    };
+    let folder = disk.0.path();
+    let (before, read) = (names(folder).len(), |path: &Path| fs::read(path).expect("the file"));
+    write_all(folder, &groom(4), |path, written| {
+        let old = read(path);
+        let message = written.expect_err("nothing can be written").to_string();
+        assert_eq!(message, format!("{}: the disk can only be read", path.display()));
+        assert_eq!(read(path), old);
+    });
+    assert_eq!(names(folder).len(), before);
 }

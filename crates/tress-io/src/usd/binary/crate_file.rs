@@ -54,13 +54,13 @@ pub(super) enum Type {
 pub(super) struct Rep(u64);
 
 impl Rep {
-    fn new(flags: u64, kind: Type, payload: u64) -> Self {
+    const fn new(flags: u64, kind: Type, payload: u64) -> Self {
         Self(flags | (kind as u64) << 48 | payload)
     }
 
     /// A small number that stands for itself.
-    pub(super) fn inlined(kind: Type, payload: u32) -> Self {
-        Self::new(INLINED, kind, payload.into())
+    pub(super) const fn inlined(kind: Type, payload: u32) -> Self {
+        Self::new(INLINED, kind, payload as u64)
     }
 }
 
@@ -191,57 +191,12 @@ impl<W: Write + Seek> CrateFile<W> {
 
     /// Writes the structure.
     pub(super) fn finish(mut self) -> io::Result<W> {
-        let n = self.specs.len();
-        let in_order: Vec<i32> = (0..).take(n).collect();
-        let column = |of: fn(&Spec) -> i32| self.specs.iter().map(of).collect::<Vec<i32>>();
-        let elements = column(|spec| spec.element);
-        let sets = column(|spec| spec.field_set);
-        let kinds = column(|spec| spec.kind as i32);
-        // Child comes next; sibling comes next; neither.
-        let jumps: Vec<i32> = (1..=n)
-            .map(|next| match self.specs.get(next).map(|spec| spec.kind) {
-                _ if self.specs[next - 1].kind != Kind::Attribute => -1,
-                Some(_) => 0,
-                None => -2,
-            })
-            .collect();
-
-        let mut tokens = self.tokens.join("\0").into_bytes();
-        tokens.push(0);
-        let packed = literals(&tokens);
-        let mut token_section = Vec::new();
-        push_words(&mut token_section, &[self.tokens.len(), tokens.len(), packed.len()]);
-        token_section.extend(packed);
-
-        let names: Vec<i32> = self.fields.iter().map(|field| field.0).collect();
-        let reps: Vec<u8> = self.fields.iter().flat_map(|field| field.1.0.to_le_bytes()).collect();
-        let mut field_section = counted_integers(&names);
-        push_block(&mut field_section, &literals(&reps));
-
-        let mut path_section = Vec::new();
-        push_words(&mut path_section, &[n]);
-        path_section.extend(counted_integers(&in_order));
-        push_block(&mut path_section, &integers(&elements));
-        push_block(&mut path_section, &integers(&jumps));
-
-        let mut spec_section = counted_integers(&in_order);
-        push_block(&mut spec_section, &integers(&sets));
-        push_block(&mut spec_section, &integers(&kinds));
-
-        let field_sets = counted_integers(&self.field_sets);
-        let sections: [(&[u8], Vec<u8>); 6] = [
-            (b"TOKENS", token_section),
-            (b"STRINGS", vec![0; 8]),
-            (b"FIELDS", field_section),
-            (b"FIELDSETS", field_sets),
-            (b"PATHS", path_section),
-            (b"SPECS", spec_section),
-        ];
+        let sections = self.sections();
         let mut contents = Vec::new();
         push_words(&mut contents, &[sections.len()]);
         for (name, bytes) in &sections {
             let mut padded = [0; 16];
-            padded[..name.len()].copy_from_slice(name);
+            padded[..name.len()].copy_from_slice(name.as_bytes());
             contents.extend(padded);
             contents.extend(self.end.to_le_bytes());
             push_words(&mut contents, &[bytes.len()]);
@@ -254,6 +209,53 @@ impl<W: Write + Seek> CrateFile<W> {
         self.out.seek(SeekFrom::Start(self.end))?;
         self.out.flush()?;
         Ok(self.out)
+    }
+
+    /// The parts of the structure, by name.
+    fn sections(&self) -> [(&'static str, Vec<u8>); 6] {
+        let mut tokens = self.tokens.join("\0").into_bytes();
+        tokens.push(0);
+        let packed = literals(&tokens);
+        let mut token_section = Vec::new();
+        push_words(&mut token_section, &[self.tokens.len(), tokens.len(), packed.len()]);
+        token_section.extend(packed);
+
+        let names: Vec<i32> = self.fields.iter().map(|field| field.0).collect();
+        let reps: Vec<u8> = self.fields.iter().flat_map(|field| field.1.0.to_le_bytes()).collect();
+        let mut field_section = counted_integers(&names);
+        push_block(&mut field_section, &literals(&reps));
+
+        let n = self.specs.len();
+        let in_order: Vec<i32> = (0..).take(n).collect();
+        let column = |of: fn(&Spec) -> i32| self.specs.iter().map(of).collect::<Vec<i32>>();
+        let mut path_section = Vec::new();
+        push_words(&mut path_section, &[n]);
+        path_section.extend(counted_integers(&in_order));
+        push_block(&mut path_section, &integers(&column(|spec| spec.element)));
+        push_block(&mut path_section, &integers(&self.jumps()));
+
+        let mut spec_section = counted_integers(&in_order);
+        push_block(&mut spec_section, &integers(&column(|spec| spec.field_set)));
+        push_block(&mut spec_section, &integers(&column(|spec| spec.kind as i32)));
+        [
+            ("TOKENS", token_section),
+            // There are no strings but tokens: a count of 0.
+            ("STRINGS", vec![0; 8]),
+            ("FIELDS", field_section),
+            ("FIELDSETS", counted_integers(&self.field_sets)),
+            ("PATHS", path_section),
+            ("SPECS", spec_section),
+        ]
+    }
+
+    /// What comes behind each path: its child (-1), a sibling (0), or neither (-2).
+    fn jumps(&self) -> Vec<i32> {
+        let next = |i: usize| match (self.specs[i].kind, self.specs.get(i + 1)) {
+            (Kind::Root | Kind::Prim, _) => -1,
+            (Kind::Attribute, Some(_)) => 0,
+            (Kind::Attribute, None) => -2,
+        };
+        (0..self.specs.len()).map(next).collect()
     }
 
     fn put(&mut self, bytes: &[u8]) -> io::Result<()> {

@@ -1,4 +1,4 @@
-//! Calls into a library that was not made for broken files.
+//! Calls into openusd, which was not made for broken files.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -6,26 +6,22 @@ use crate::{ParseError, Place, Problem};
 
 /// Runs `read`, and makes a panic in it an error.
 ///
-/// openusd 0.6 indexes by numbers from the file, and has kinds of data left to do that end in
-/// `todo!`. What can be checked before is checked where they are called; this
-/// holds what is left. Nothing that `read` touches outlives it, so that no state is seen half
-/// changed.
-pub(super) fn no_panic<T>(
-    library: &str,
-    read: impl FnOnce() -> Result<T, ParseError>,
-) -> Result<T, ParseError> {
+/// openusd 0.6 indexes by numbers from the file, and ends in `todo!` where data is compressed in
+/// several chunks. What can be checked before is checked before it is called; this holds what is
+/// left. Nothing that `read` touches outlives it, so that no state is seen half changed.
+pub(super) fn no_panic<T>(read: impl FnOnce() -> Result<T, ParseError>) -> Result<T, ParseError> {
     catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|panic| {
         let message = panic
             .downcast_ref::<String>()
             .map(String::as_str)
             .or_else(|| panic.downcast_ref::<&str>().copied())
             .unwrap_or("no reason given");
-        let message = one_line(&format!("{library} cannot make sense of the file ({message})"));
-        Err(Problem::Unsupported(message).at(Place::File))
+        let message = format!("the USD library cannot make sense of the file ({message})");
+        Err(Problem::Unsupported(one_line(&message)).at(Place::File))
     })
 }
 
-/// Letters of a message that are passed on. Libraries quote what they do not understand, which may
+/// Letters of a message that are passed on. openusd quotes what it does not understand, which may
 /// be the whole file.
 const LONGEST: usize = 200;
 
@@ -44,10 +40,10 @@ mod tests {
 
     #[test]
     fn a_panic_becomes_an_error_of_one_line() {
-        let error = no_panic::<()>("the library", || panic!("index {} of 3\nis odd", 7));
+        let error = no_panic::<()>(|| panic!("index {} of 3\nis odd", 7));
         let message = error.expect_err("the panic").to_string();
-        assert_eq!(message, "the library cannot make sense of the file (index 7 of 3 is odd)");
-        assert_eq!(no_panic("the library", || Ok(3)).expect("no panic"), 3);
+        assert_eq!(message, "the USD library cannot make sense of the file (index 7 of 3 is odd)");
+        assert_eq!(no_panic(|| Ok(3)).expect("no panic"), 3);
         assert_eq!(one_line(&"\u{e9}".repeat(1000)).chars().count(), LONGEST + 4);
     }
 }
