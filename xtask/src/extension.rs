@@ -1,20 +1,22 @@
 //! The Blender extension: the add-on's modules and the wheel of the Python package in one archive.
 
-use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::ffi::{OsStr, OsString};
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::{env, fs};
 
+use crate::python::build_wheel;
+use crate::tools::{absolute, broken, call, empty, python};
 use crate::{root, say};
 
-/// Builds `target/extension/tress-VERSION-PLATFORM.zip`, and has Blender validate it where there is
-/// one: `blender` on the path, or the interpreter that `BLENDER_PYTHON` names, which has `bpy`.
+/// Builds `target/extension/tress-VERSION-PLATFORM.zip`, and has Blender validate and test it where
+/// there is one: `blender` on the path validates; the interpreters that `BLENDER_PYTHON` names,
+/// separated as in `PATH`, which have `bpy`, validate and, if they have pytest, test.
 pub(crate) fn run() -> Result<(), String> {
     let folder = root().join("target/extension");
     let stage = folder.join("tress");
     let wheels = stage.join("wheels");
     empty(&stage)?;
-    empty(&wheels)?;
     let wheel = build_wheel(&wheels)?;
     copy_modules(&root().join("blender/addon"), &stage)?;
     copy(&root().join("LICENSE"), &stage.join("LICENSE"))?;
@@ -24,29 +26,6 @@ pub(crate) fn run() -> Result<(), String> {
     zip(&stage, &archive)?;
     say(&format!("{}", archive.display()));
     validate(&archive)
-}
-
-/// The interpreter that builds: `PYTHON`, or `python3`.
-fn python() -> std::ffi::OsString {
-    env::var_os("PYTHON").unwrap_or_else(|| "python3".into())
-}
-
-/// Builds the wheel of the Python package with maturin into an empty folder; gives its file name.
-pub(crate) fn build_wheel(wheels: &Path) -> Result<String, String> {
-    let mut maturin = Command::new(python());
-    maturin.args(["-m", "maturin", "build", "--release", "--out"]).arg(wheels);
-    call(maturin.current_dir(root()), "maturin (pip install maturin)")?;
-    let mut found = fs::read_dir(wheels).map_err(|error| broken(wheels, &error))?;
-    let wheel = found.find_map(|entry| entry.ok()?.file_name().into_string().ok());
-    wheel.ok_or_else(|| format!("maturin left no wheel in {}", wheels.display()))
-}
-
-/// Makes a folder with nothing in it.
-pub(crate) fn empty(folder: &Path) -> Result<(), String> {
-    if folder.exists() {
-        fs::remove_dir_all(folder).map_err(|error| broken(folder, &error))?;
-    }
-    fs::create_dir_all(folder).map_err(|error| broken(folder, &error))
 }
 
 /// Copies the Python modules of the add-on.
@@ -110,10 +89,14 @@ fn zip(stage: &Path, archive: &Path) -> Result<(), String> {
 /// Blender's own opinion of the archive, where there is a Blender to ask.
 fn validate(archive: &Path) -> Result<(), String> {
     let archive = absolute(archive)?;
-    if let Some(python) = env::var_os("BLENDER_PYTHON") {
-        let mut command = Command::new(python);
-        command.args(["-c", VALIDATE]).arg(archive);
-        return call(&mut command, "Blender's extension command");
+    if let Some(interpreters) = env::var_os("BLENDER_PYTHON") {
+        for python in env::split_paths(&interpreters).map(OsString::from) {
+            let mut command = Command::new(&python);
+            command.args(["-c", VALIDATE]).arg(&archive);
+            call(&mut command, "Blender's extension command")?;
+            test(&python, &archive)?;
+        }
+        return Ok(());
     }
     let mut command = Command::new("blender");
     command.args(["--command", "extension", "validate"]).arg(archive);
@@ -127,6 +110,19 @@ fn validate(archive: &Path) -> Result<(), String> {
     }
 }
 
+/// Runs every operator of the archive in an interpreter that has `bpy`.
+fn test(python: &OsStr, archive: &Path) -> Result<(), String> {
+    let mut check = Command::new(python);
+    check.args(["-c", "import pytest"]).stderr(Stdio::null());
+    if !check.status().is_ok_and(|status| status.success()) {
+        say(&format!("not tested: {} has no pytest", python.display()));
+        return Ok(());
+    }
+    let mut tests = Command::new(python);
+    tests.args(["-m", "pytest", "blender/tests"]).env("TRESS_EXTENSION", archive);
+    call(tests.current_dir(root()), "pytest blender/tests")
+}
+
 /// What `blender --command extension validate` runs, in an interpreter that has `bpy`.
 const VALIDATE: &str = "
 import pathlib, subprocess, sys
@@ -136,21 +132,8 @@ command = scripts / 'addons_core' / 'bl_pkg' / 'cli' / 'blender_ext.py'
 sys.exit(subprocess.run([sys.executable, str(command), 'validate', sys.argv[1]]).returncode)
 ";
 
-fn call(command: &mut Command, name: &str) -> Result<(), String> {
-    let status = command.status().map_err(|error| format!("{name} does not start: {error}"))?;
-    if status.success() { Ok(()) } else { Err(format!("{name} failed")) }
-}
-
 fn copy(from: &Path, to: &Path) -> Result<(), String> {
     fs::copy(from, to).map(drop).map_err(|error| broken(from, &error))
-}
-
-fn absolute(path: &Path) -> Result<PathBuf, String> {
-    std::path::absolute(path).map_err(|error| broken(path, &error))
-}
-
-fn broken(path: &Path, error: &std::io::Error) -> String {
-    format!("{}: {error}", path.display())
 }
 
 #[cfg(test)]
