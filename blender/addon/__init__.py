@@ -12,7 +12,8 @@ add-on turns curves objects into grooms and back.
 | `growth` | operator: hair grown from guides on a mesh |
 | `colors` | operators: colour by a quantity |
 | `rig`, `rig_operators` | an armature of empties that moves hair while they are dragged |
-| `files` | import and export |
+| `files`, `columns` | import and export, with attributes |
+| `cache` | animated files played back |
 | `panel` | the panel |
 """
 
@@ -27,9 +28,9 @@ except ImportError as error:
         f"the package tress that this extension carries is not for {machine}: {error}"
     ) from error
 
-from . import colors, edits, files, growth, panel, rig, rig_operators
+from . import cache, colors, edits, files, growth, panel, rig, rig_operators
 
-MODULES = (edits, growth, colors, rig, rig_operators, files, panel)
+MODULES = (cache, edits, growth, colors, rig, rig_operators, files, panel)
 
 
 def register():

@@ -74,18 +74,13 @@ class TRESS_OT_ruffle(HairOperator, bpy.types.Operator):
     elements: IntProperty(**ELEMENTS)
 
     def run(self, _context, obj):
-        done = {}
-
         def edit(helices):
-            n = min(self.clusters, len(helices))
-            groups = tress.groups(helices, clusters=n, seed=self.seed) if n else None
+            groups = hair.wisps(helices, self.clusters, self.seed)
             keep = round(self.root * int(helices.counts.max(initial=0)))
             options = {"probability": self.probability, "keep": keep, "blend": self.blend}
-            ruffled, report = tress.ruffle(helices, groups, seed=self.seed, **options)
-            done.update(report)
-            return ruffled
+            return tress.ruffle(helices, groups, seed=self.seed, **options)
 
-        hair.with_edit(obj, self.elements, edit)
+        done = hair.with_edit(obj, self.elements, edit)
         return f"{done['replaced']} of {done['candidates']} pieces replaced"
 
 
@@ -117,7 +112,7 @@ class TRESS_OT_recoil(HairOperator, bpy.types.Operator):
 
     def run(self, _context, obj):
         options = {"radius": self.radius, "frequency": self.frequency, "keep": self.keep}
-        hair.with_edit(obj, self.elements, lambda helices: tress.recoil(helices, **options))
+        hair.with_edit(obj, self.elements, lambda helices: (tress.recoil(helices, **options), None))
 
 
 class TRESS_OT_blend(HairOperator, bpy.types.Operator):
@@ -191,21 +186,16 @@ class TRESS_OT_switchback(HairOperator, bpy.types.Operator):
     elements: IntProperty(**ELEMENTS)
 
     def run(self, _context, obj):
-        done = {}
-
         def edit(helices):
-            n = min(self.clusters, len(helices))
-            groups = tress.groups(helices, clusters=n, seed=self.seed) if n else None
+            groups = hair.wisps(helices, self.clusters, self.seed)
             if self.scatter:
                 length = tress.summarize(helices)["length"]
                 where = {"density": self.count / length["median"] if length else 0.0}
             else:
                 where = {"shares": [(i + 1) / (self.count + 1) for i in range(self.count)]}
-            changed, report = tress.insert_switchbacks(helices, groups, seed=self.seed, **where)
-            done.update(report)
-            return changed
+            return tress.insert_switchbacks(helices, groups, seed=self.seed, **where)
 
-        hair.with_edit(obj, self.elements, edit)
+        done = hair.with_edit(obj, self.elements, edit)
         words = f"{len(done['placed'])} switchbacks on {done['strands']} strands"
         refused = done["no_room"] + done["no_coil"]
         return words + (f"; {refused} places have no room or no coil" if refused else "")

@@ -1,4 +1,4 @@
-"""Grooms from and to the files that tress knows."""
+"""Grooms from and to the files that tress knows, animated ones included."""
 
 import os
 
@@ -8,14 +8,14 @@ import tress
 from bpy.props import BoolProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
-from . import hair
+from . import cache, columns, hair
 
 READ = "*.obj;*.hair;*.data;*.bin;*.ply;*.tfx;*.npy;*.npz;*.usda;*.usdc;*.usd;*.abc;*.tress"
 WRITTEN = "*.obj;*.hair;*.data;*.bin;*.ply;*.tfx;*.npy;*.npz;*.usda;*.usdc;*.abc;*.tress"
 
 
 class TRESS_OT_import(bpy.types.Operator, ImportHelper):
-    """Import a groom as hair curves"""
+    """Import a groom as hair curves; the frames of an animated file are played back"""
 
     bl_idname = "tress.import_groom"
     bl_label = "Import Groom"
@@ -36,29 +36,37 @@ class TRESS_OT_import(bpy.types.Operator, ImportHelper):
 
     def execute(self, context):
         try:
-            groom = tress.read(self.filepath)
-            if isinstance(groom, tress.HelixGroom):
-                groom = tress.sample(groom)
+            frames = opened(self.filepath)
+            first = frames[0]
         except (tress.TressError, OSError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        up = groom.up or ("z" if self.z_up else "y")
-        groom = groom.in_space(groom.unit, up).turned_up("z")
-        metres = context.scene.unit_settings.scale_length
-        scale = self.scale if groom.unit is None else groom.unit / metres
+        groom, scale = cache.in_scene(first, context.scene, self.scale, self.z_up)
         name = os.path.splitext(os.path.basename(self.filepath))[0]
-        obj = hair.new_object(context, name, groom.with_positions(groom.positions * scale))
-        for attribute, values in groom.strand_attributes.items():
-            if values.ndim == 1 and (groom.counts > 0).all():
-                hair.set_numbers(obj.data, attribute, values)
-        empty = int(np.count_nonzero(groom.counts == 0))
+        obj = hair.new_object(context, name, groom)
+        columns.to_curves(obj.data, groom, scale)
+        words = f"{len(groom)} strands imported"
+        if 1 < len(frames):
+            obj.tress_cache.path = self.filepath
+            obj.tress_cache.start = round(frames.start)
+            obj.tress_cache.scale, obj.tress_cache.z_up = self.scale, self.z_up
+            cache.before_frame(context.scene)
+            words += f", {len(frames)} frames"
         for other in context.selected_objects:
             other.select_set(False)
         obj.select_set(True)
         context.view_layer.objects.active = obj
+        empty = len(first) - len(groom)
         lost = f"; {empty} strands without points left out" if empty else ""
-        self.report({"INFO"}, f"{len(groom) - empty} strands imported{lost}")
+        self.report({"INFO"}, words + lost)
         return {"FINISHED"}
+
+
+def opened(path):
+    """The grooms of a file, one a frame; super-helices are sampled."""
+    if path.endswith(".tress"):
+        return [tress.sample(tress.read(path))]
+    return tress.Animation(path)
 
 
 class TRESS_OT_export(bpy.types.Operator, ExportHelper):
@@ -71,25 +79,56 @@ class TRESS_OT_export(bpy.types.Operator, ExportHelper):
     check_extension = None
     filter_glob: StringProperty(default=WRITTEN, options={"HIDDEN"})
 
+    animation: BoolProperty(
+        name="Animation",
+        description="All frames of the scene, to an .abc or .usdc file",
+        default=False,
+    )
+
     @classmethod
     def poll(cls, context):
         return hair.is_hair(context.object)
 
     def execute(self, context):
-        obj = context.object
-        matrix = np.array(obj.matrix_world)
-        points = hair.positions(obj.data) @ matrix[:3, :3].T + matrix[:3, 3]
+        obj, scene = context.object, context.scene
+        now = scene.frame_current
         try:
-            groom = hair.groom(obj, points)
-            if self.filepath.endswith(".tress"):
-                groom, _report = tress.fit(groom)
-            lost = tress.write(self.filepath, groom)
+            if self.animation:
+                grooms = []
+                for frame in range(scene.frame_start, scene.frame_end + 1):
+                    scene.frame_set(frame)
+                    grooms.append(evaluated(context, obj))
+                rate = scene.render.fps / scene.render.fps_base
+                options = {"start": scene.frame_start, "rate": rate}
+                lost = tress.write_animation(self.filepath, grooms, **options)
+                words = f"{len(grooms[0])} strands exported, {len(grooms)} frames"
+            else:
+                groom = evaluated(context, obj)
+                words = f"{len(groom)} strands exported"
+                if self.filepath.endswith(".tress"):
+                    groom, _report = tress.fit(groom)
+                lost = tress.write(self.filepath, groom)
         except (tress.TressError, OSError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        words = f"; the format has no place for {', '.join(lost)}" if lost else ""
-        self.report({"INFO"}, f"{len(groom)} strands exported{words}")
+        finally:
+            if self.animation:
+                scene.frame_set(now)
+        words += f"; the format has no place for {', '.join(lost)}" if lost else ""
+        self.report({"INFO"}, words)
         return {"FINISHED"}
+
+
+def evaluated(context, obj):
+    """The groom of an object on the scene's frame, modifiers applied, in the space of the world."""
+    seen = obj.evaluated_get(context.evaluated_depsgraph_get())
+    curves = seen.data if len(seen.data.curves) else obj.data
+    matrix = np.array(seen.matrix_world)
+    points = hair.positions(curves) @ matrix[:3, :3].T + matrix[:3, 3]
+    unit = context.scene.unit_settings.scale_length
+    groom = tress.Groom(points, hair.offsets(curves), unit=unit, up="z")
+    of_points, of_strands = columns.of_curves(curves, abs(np.linalg.det(matrix[:3, :3])) ** (1 / 3))
+    return groom.with_attributes(point=of_points, strand=of_strands)
 
 
 def import_entry(menu, _context):

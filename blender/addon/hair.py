@@ -152,10 +152,18 @@ def new_object(context, name, polylines, like=None):
 def with_edit(obj, elements, edit):
     """Fits the hair, lets `edit` change its super-helices, and moves the points accordingly.
 
-    `edit` gets a HelixGroom and gives one back, of the same strands.
+    `edit` gets a HelixGroom and gives one of the same strands back and a report, which is returned.
     """
     before = groom(obj)
     helices, _report = fitted(before, elements)
-    after = tress.sample(edit(helices), counts=before.counts)
+    changed, report = edit(helices)
+    after = tress.sample(changed, counts=before.counts)
     keep_original(obj)
     move(obj, after.positions)
+    return report
+
+
+def wisps(helices, clusters, seed):
+    """The cluster of each strand, or None where all strands are one."""
+    clusters = min(clusters, len(helices))
+    return tress.groups(helices, clusters=clusters, seed=seed) if clusters else None

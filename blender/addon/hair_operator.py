@@ -2,7 +2,7 @@
 
 import tress
 
-from . import hair
+from . import cache, hair
 
 ELEMENTS = {
     "name": "Elements",
@@ -19,7 +19,7 @@ class HairOperator:
 
     bl_options = {"REGISTER", "UNDO"}
 
-    #: Whether the operator moves hair, which an armature on it would move back.
+    #: Whether the operator moves hair, which an armature on it or a file would move back.
     moves_hair = False
 
     @classmethod
@@ -28,6 +28,9 @@ class HairOperator:
             return False
         if cls.moves_hair and hair.REST in context.object.data.attributes:
             cls.poll_message_set("Apply or discard the armature first")
+            return False
+        if cls.moves_hair and cache.is_played(context.object):
+            cls.poll_message_set("Stop playing the file first: it would move the hair back")
             return False
         return True
 

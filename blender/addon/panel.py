@@ -4,7 +4,7 @@ import json
 
 import bpy
 
-from . import edits, hair, rig
+from . import cache, edits, hair, rig
 
 
 class TRESS_PT_panel(bpy.types.Panel):
@@ -23,6 +23,9 @@ class TRESS_PT_panel(bpy.types.Panel):
             return
         if not hair.is_hair(obj):
             layout.label(text="Leave for Object Mode", icon="INFO")
+        if cache.is_played(obj):
+            layout.label(text=f"Frames of {obj.tress_cache.path}", icon="FILE_CACHE")
+            layout.operator("tress.cache_stop", icon="X")
         layout.operator("tress.fit", icon="CURVES")
         draw_report(layout, obj)
         column = layout.column(align=True)

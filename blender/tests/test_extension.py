@@ -317,6 +317,109 @@ def test_files_go_out_and_come_in(scene, tmp_path):
         bpy.ops.tress.import_groom(filepath=str(tmp_path / "none.npz"))
 
 
+def wind(path, frames=3, **options):
+    """Writes an animated file of two coils that move by 0.1 a frame along x."""
+    points = np.stack([coil(1), coil(-1) + [1, 0, 0]])
+    grooms = [tress.Groom(points + [0.1 * i, 0, 0], unit=1.0, up="z") for i in range(frames)]
+    tress.write_animation(path, grooms, **options)
+    return points.reshape(-1, 3)
+
+
+@pytest.mark.parametrize("extension", ["abc", "usdc"])
+def test_frames_of_a_file_are_played_and_written(scene, addon, tmp_path, extension):
+    path = str(tmp_path / f"wind.{extension}")
+    first = wind(path, start=5.0, rate=24.0)
+    scene.frame_set(1)
+    assert bpy.ops.tress.import_groom(filepath=path) == {"FINISHED"}
+    obj = bpy.context.object
+    for frame, moved in [(1, 0.0), (5, 0.0), (6, 0.1), (7, 0.2), (20, 0.2), (6, 0.1)]:
+        scene.frame_set(frame)
+        assert np.abs(positions(obj) - first - [moved, 0, 0]).max() < 1e-5
+    assert not bpy.ops.tress.recoil.poll(), "the file would move the hair back"
+    scene.frame_start, scene.frame_end = 5, 7
+    obj.location.y = 2.0
+    out = str(tmp_path / f"out.{extension}")
+    assert bpy.ops.tress.export_groom(filepath=out, animation=True) == {"FINISHED"}
+    assert scene.frame_current == 6
+    frames = tress.Animation(out)
+    assert (len(frames), frames.start) == (3, 5.0)
+    for i, groom in enumerate(frames):
+        groom = groom.turned_up("z")
+        assert np.abs(groom.positions - first - [0.1 * i, 2, 0]).max() < 1e-5
+    assert bpy.ops.tress.cache_stop() == {"FINISHED"}
+    scene.frame_set(5)
+    assert np.abs(positions(obj) - first - [0.1, 0, 0]).max() < 1e-5
+    assert bpy.ops.tress.recoil.poll()
+    with pytest.raises(RuntimeError, match="one groom"):
+        bpy.ops.tress.export_groom(filepath=str(tmp_path / "out.obj"), animation=True)
+
+
+def test_frames_with_other_strands_and_files_that_are_gone_move_nothing(scene, tmp_path, capsys):
+    path = tmp_path / "wind.abc"
+    points = np.stack([coil(1), coil(-1) + [1, 0, 0]])
+    grooms = [tress.Groom(points, up="z"), tress.Groom(points[:1] + [1, 0, 0], up="z")]
+    tress.write_animation(path, grooms)
+    assert bpy.ops.tress.import_groom(filepath=str(path)) == {"FINISHED"}
+    obj = bpy.context.object
+    before = positions(obj)
+    scene.frame_set(2)
+    assert np.array_equal(positions(obj), before)
+    assert "frame 2" in capsys.readouterr().out
+    obj.tress_cache.path = str(tmp_path / "gone.abc")
+    scene.frame_set(1)
+    assert np.array_equal(positions(obj), before) and "gone.abc" in capsys.readouterr().out
+
+
+def test_attributes_go_out_and_come_in(scene, tmp_path):
+    obj = make_hair(count=3, points=20)
+    curves = obj.data
+    n = len(curves.points)
+    of_points = np.linspace(0.0, 1.0, n, dtype=np.float32)
+    of_points[7] = np.nan
+    curves.attributes.new("glow", "FLOAT", "POINT").data.foreach_set("value", of_points)
+    wisps = np.array([4, -1, 4], np.int32)
+    curves.attributes.new("wisp", "INT", "CURVE").data.foreach_set("value", wisps)
+    tint = np.tile(np.float32([0.1, 0.2, 0.3, 1.0]), n)
+    curves.attributes.new("tint", "FLOAT_COLOR", "POINT").data.foreach_set("color", tint)
+    radius = curves.attributes.get("radius") or curves.attributes.new("radius", "FLOAT", "POINT")
+    radius.data.foreach_set("value", np.full(n, 0.25, np.float32))
+    obj.scale = (2.0, 2.0, 2.0)
+    bpy.context.view_layer.update()
+    for name in ("all.npz", "all.usdc", "all.abc"):
+        path = str(tmp_path / name)
+        assert bpy.ops.tress.export_groom(filepath=path) == {"FINISHED"}
+        groom = tress.read(path)
+        assert groom.strand_attributes["wisp"].tolist() == wisps.tolist()
+        assert np.array_equal(groom.point_attributes["glow"], of_points, equal_nan=True)
+        assert groom.point_attributes["width"] == pytest.approx(1.0)
+        assert bpy.ops.tress.import_groom(filepath=path) == {"FINISHED"}
+        back = bpy.context.object
+        assert np.array_equal(numbers(back, "glow"), of_points, equal_nan=True)
+        assert numbers(back, "wisp").tolist() == wisps.tolist()
+        assert numbers(back, "radius") == pytest.approx(0.5)
+        assert back.data.attributes["tint"].data_type == "FLOAT_COLOR"
+        assert bpy.ops.tress.color() == {"FINISHED"}, "a number that is none is no trouble"
+        activate(obj)
+
+
+def test_modifiers_are_applied_on_the_way_out(scene, tmp_path):
+    obj = make_hair(count=2, points=20)
+    before = positions(obj)
+    group = bpy.data.node_groups.new("lift", "GeometryNodeTree")
+    group.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+    group.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    begin, end = group.nodes.new("NodeGroupInput"), group.nodes.new("NodeGroupOutput")
+    lift = group.nodes.new("GeometryNodeSetPosition")
+    lift.inputs["Offset"].default_value = (0, 0, 3)
+    group.links.new(begin.outputs[0], lift.inputs[0])
+    group.links.new(lift.outputs[0], end.inputs[0])
+    obj.modifiers.new("lift", "NODES").node_group = group
+    path = str(tmp_path / "lifted.npz")
+    assert bpy.ops.tress.export_groom(filepath=path) == {"FINISHED"}
+    assert np.abs(tress.read(path).positions - before - [0, 0, 3]).max() < 1e-5
+    assert np.array_equal(positions(obj), before)
+
+
 def test_strands_that_are_no_curves_stay(scene):
     curves = bpy.data.hair_curves.new("odd")
     curves.add_curves([1, 4, 2, 20])
