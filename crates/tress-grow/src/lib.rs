@@ -9,6 +9,7 @@
 //! |---|---|
 //! | [`grow`], [`Plan`] | hairs from guides and roots; the same hairs on every frame |
 //! | [`GrowOptions`], [`preset`] | how they grow |
+//! | [`skip_periods`] | turns of one hair left out |
 //! | [`Coils`] | a library of coils for the loose part |
 //! | [`assign`], [`read_groups`] | which guide a root follows |
 //! | [`scatter`] | roots on a mesh, evenly spaced |
@@ -51,3 +52,4 @@ pub use options::{CoilScale, GrowOptions, GrowOptionsError, Skip, SkipUnit};
 pub use plan::{GrowError, Plan};
 pub use presets::{preset, preset_names, preset_text};
 pub use scatter::{Density, ScatterError, scatter};
+pub use skip::{SkipScratch, skip_periods};

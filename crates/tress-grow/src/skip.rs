@@ -10,15 +10,20 @@ use rand::{Rng, RngExt};
 
 use crate::{Skip, SkipUnit};
 
-/// Points and indices of one hair, kept from hair to hair.
-#[derive(Default)]
-pub(crate) struct SkipScratch {
+/// Work space of [`skip_periods`], kept from hair to hair.
+#[derive(Clone, Debug, Default)]
+pub struct SkipScratch {
     kept: Vec<usize>,
     points: Vec<DVec3>,
 }
 
-/// Moves the points that `skip` leaves out onto the spline through the others.
-pub(crate) fn skip_periods(
+/// Moves the points that `skip` leaves out onto the spline through the others; the first two and
+/// the last stay. A turn of the hair takes `points_per_turn` points, 1 or more.
+///
+/// # Panics
+///
+/// If the probability is above 1 or no number.
+pub fn skip_periods(
     hair: &mut [DVec3],
     skip: &Skip,
     points_per_turn: f64,
