@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use tress_geometry::{Column, Groom, UpAxis, names};
 
 use crate::numbers::{count, draw_one};
-use crate::{Bound, Chain, ChainError, EvenStrands, Instances, Instancing, Roots};
+use crate::{Bound, Chain, ChainError, EvenStrands, Instances, Instancing, Roots, Surface};
 
 /// A groom as guides plus operators.
 ///
@@ -105,6 +105,9 @@ pub enum BuildError {
     /// The chain cannot be run.
     #[error(transparent)]
     Chain(#[from] ChainError),
+    /// More points than offsets tell apart.
+    #[error(transparent)]
+    Offsets(#[from] tress_geometry::OffsetsError),
 }
 
 /// Metadata of a groom that is one number or name.
@@ -123,9 +126,8 @@ impl ProceduralGroom {
     ///
     /// If there are no guides, or a coordinate is not finite.
     pub fn new(guides: EvenStrands, roots: Roots) -> Result<Self, BuildError> {
-        let guide_roots = Roots { positions: guides.roots(), uv: None };
         let operator_guides = (0..).zip(guides.iter()).map(|(i, _)| i).collect();
-        let sigma = spacing(&guide_roots.positions);
+        let sigma = spacing(&guides.roots());
         let mut groom = Self {
             chain: Chain::default(),
             seed: 0,
@@ -159,6 +161,47 @@ impl ProceduralGroom {
         let near =
             crate::instancing::nearest(&guides.places(&self.roots), &self.roots.places(&guides), 1);
         self.operator_of = near.iter().map(|near| near.first().map_or(0, |best| best.1)).collect();
+    }
+
+    /// Blends every strand from the guides whose roots are nearest, in texture coordinates where
+    /// both sides have them and else in space, with the mean distance of neighboring guides for
+    /// `sigma`; and gives it to the operator guide nearest there.
+    pub fn instance_by_distance(&mut self, neighbors: usize) {
+        let sigma = spacing(&self.guide_roots().places(&self.roots));
+        self.instancing = Instancing::Gaussian { neighbors, sigma };
+        self.instances = None;
+        self.assign();
+    }
+
+    /// Mean distance of a guide's root from the nearest other; 1 where there is no other.
+    #[must_use]
+    pub fn guide_spacing(&self) -> f64 {
+        spacing(&self.guides.roots())
+    }
+
+    /// Blends every strand from the guides nearest over a scalp, and gives it to the operator guide
+    /// nearest there; the weights are stored with the groom, so that it needs no mesh to be built.
+    ///
+    /// # Errors
+    ///
+    /// If `sigma` is no positive number.
+    pub fn instance_over(
+        &mut self,
+        scalp: &Surface,
+        neighbors: usize,
+        sigma: f64,
+    ) -> Result<(), BuildError> {
+        if !(0.0 < sigma && sigma.is_finite()) {
+            return Err(BuildError::Sigma(sigma));
+        }
+        let (guides, roots) = (self.guides.roots(), &self.roots.positions);
+        let instances = Instances::over_surface(scalp, &guides, roots, neighbors, sigma);
+        let of_operators = self.operator_guide_points().roots();
+        let nearest = Instances::over_surface(scalp, &of_operators, roots, 1, sigma);
+        self.operator_of = nearest.guides;
+        self.instances = Some(instances);
+        self.instancing = Instancing::Stored;
+        Ok(())
     }
 
     /// Draws the random numbers of operators that have none, or not as many as they need.
@@ -269,8 +312,7 @@ impl ProceduralGroom {
     ///
     /// See [`BuildError`].
     pub fn build_groom(&self) -> Result<Groom, BuildError> {
-        let strands = self.build()?.into_strands().map_err(crate::CurvatureError::from);
-        let groom = Groom::new(strands.map_err(ChainError::from)?);
+        let groom = Groom::new(self.build()?.into_strands()?);
         let mut groom = groom.in_space(self.unit, self.up);
         let row_each = "one row was made for each strand";
         let groups = self.operator_of.iter().map(|&guide| i64::from(guide)).collect();

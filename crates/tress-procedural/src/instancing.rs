@@ -1,15 +1,15 @@
 //! Instancing: strands blended from the guides about them [IPG 3].
 //!
 //! `x_{i,j} = r_i + sum_k w_{ik} (g_{k,j} - g_{k,0})`, the weights of a strand summing to 1, `r_i`
-//! its root. By default they fall with the distance of the roots, in the scalp's texture
-//! coordinates where both sides have them and in space where not:
+//! its root. They fall with the distance of the roots: in the scalp's texture coordinates where
+//! both sides have them, over the scalp where its mesh is given, and else in space:
 //! `w = exp(-d^2 / sigma^2)`, normalised.
 
 use glam::DVec3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::EvenStrands;
+use crate::{EvenStrands, Surface};
 
 /// How strands choose the guides they are blended from.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -116,16 +116,41 @@ impl Instances {
     #[must_use]
     pub fn by_distance(guides: &Roots, roots: &Roots, neighbors: usize, sigma: f64) -> Self {
         let each = neighbors.clamp(1, guides.len().max(1));
-        let near = nearest(&guides.places(roots), &roots.places(guides), each);
+        Self::weighted(each, &nearest(&guides.places(roots), &roots.places(guides), each), sigma)
+    }
+
+    /// The guides of each root that are nearest over a scalp, weighted by that distance; where a
+    /// root's piece of the scalp bears no guide, those nearest in space.
+    #[must_use]
+    pub fn over_surface(
+        surface: &Surface,
+        guides: &[DVec3],
+        roots: &[DVec3],
+        neighbors: usize,
+        sigma: f64,
+    ) -> Self {
+        let each = neighbors.clamp(1, guides.len().max(1));
+        let mut near = surface.nearest(guides, roots, each);
+        for (near, root) in near.iter_mut().zip(roots).filter(|(near, _)| near.is_empty()) {
+            *near = nearest(guides, std::slice::from_ref(root), each).concat();
+        }
+        Self::weighted(each, &near, sigma)
+    }
+
+    /// From the nearest guides of each root with their squared distances, `each` or fewer.
+    fn weighted(each: usize, near: &[Vec<(f64, u32)>], sigma: f64) -> Self {
         let mut instances = Self { each, guides: Vec::new(), weights: Vec::new() };
-        for near in &near {
+        for near in near {
             // Taken from the least, so that one at least is not lost below the smallest number.
-            let least = near.first().map_or(0.0, |nearest| nearest.0);
+            let least = near.first().map_or((0.0, 0), |nearest| *nearest);
             let weights =
-                near.iter().map(|(square, _)| (-(square - least) / (sigma * sigma)).exp());
+                near.iter().map(|(square, _)| (-(square - least.0) / (sigma * sigma)).exp());
             let sum: f64 = weights.clone().sum();
+            let none = each - near.len();
             instances.weights.extend(weights.map(|weight| weight / sum));
+            instances.weights.extend(std::iter::repeat_n(0.0, none));
             instances.guides.extend(near.iter().map(|(_, guide)| *guide));
+            instances.guides.extend(std::iter::repeat_n(least.1, none));
         }
         instances
     }
@@ -242,6 +267,22 @@ mod tests {
         assert_eq!(Instances::by_distance(&guides, &roots, 1, 1.0).guides, [1]);
         let roots = Roots { uv: None, ..roots };
         assert_eq!(Instances::by_distance(&guides, &roots, 1, 1.0).guides, [0]);
+    }
+
+    #[test]
+    fn guides_that_no_way_leads_to_weigh_nothing() {
+        use tress_geometry::Mesh;
+        let corners = |x: f64| [x, x + 1.0, x + 2.0].map(|x| DVec3::new(x, (x % 2.0).abs(), 0.0));
+        let mesh = Mesh::new([corners(0.0), corners(10.0)].concat(), vec![[0, 1, 2], [3, 4, 5]]);
+        let surface = Surface::new(&mesh.expect("corners")).expect("a mesh");
+        let guides = [DVec3::X, 11.0 * DVec3::X];
+        let roots = [DVec3::X * 1.1, DVec3::X * 10.9];
+        let instances = Instances::over_surface(&surface, &guides, &roots, 2, 100.0);
+        assert_eq!((instances.each, instances.guides[0], instances.guides[2]), (2, 0, 1));
+        assert_eq!(instances.weights, [1.0, 0.0, 1.0, 0.0]);
+        // Both guides on one piece: those of the other are found in space.
+        let instances = Instances::over_surface(&surface, &[DVec3::X], &roots, 2, 100.0);
+        assert_eq!((&instances.guides[..], &instances.weights[..]), (&[0, 0][..], &[1.0, 1.0][..]));
     }
 
     #[test]

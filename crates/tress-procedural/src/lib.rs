@@ -7,6 +7,8 @@
 //!
 //! `[IPG]`: Chang et al., "Transforming Unstructured Hair Strands into Procedural Hair Grooms", ACM
 //! Transactions on Graphics 44(4), 2025. Equation numbers are the paper's own.
+//!
+//! `[CC]`: Wu et al., "Curly-Cue: Geometric Methods for Highly Coiled Hair", SIGGRAPH Asia 2024.
 
 mod chain;
 mod even;
@@ -18,6 +20,7 @@ mod instancing;
 mod noise;
 mod numbers;
 mod operators;
+mod surface;
 pub mod synthetic;
 
 pub use chain::{Bound, Chain, ChainError, Gradients};
@@ -28,5 +31,6 @@ pub use instancing::{Instances, Instancing, Roots};
 pub use numbers::draw;
 pub use operators::{
     Bend, Clump, Convention, Curl, CurvatureError, Frizz, Operator, Parameter, ParameterError,
-    Scale, Straighten,
+    Scale, Skip, SkipKeep, Straighten, Switchback,
 };
+pub use surface::{Surface, SurfaceError};

@@ -44,7 +44,7 @@ pub(crate) fn draw_one(
     operator_guides: usize,
     seed: u64,
 ) -> Vec<f64> {
-    let key = seed ^ fingerprint(label(operators, o).as_bytes());
+    let key = stream(operators, o, seed);
     match operators[o].draws() {
         Draws::None => Vec::new(),
         Draws::NormalPerStrand => (0..strands)
@@ -61,6 +61,11 @@ pub(crate) fn draw_one(
             })
             .collect(),
     }
+}
+
+/// The seed of operator `o`'s own numbers.
+pub(crate) fn stream(operators: &[Operator], o: usize, seed: u64) -> u64 {
+    seed ^ fingerprint(label(operators, o).as_bytes())
 }
 
 /// An operator's name and its place among those of that name: `bend.0`, `bend.1`.

@@ -1,4 +1,4 @@
-//! The operators of a procedural groom, each with its exact derivative.
+//! The operators of a procedural groom.
 //!
 //! An operator moves the points of one strand, given the operator guide the strand belongs to and
 //! the strand's stored random numbers `u`. In the symbols of [IPG appendix A], a strand has points
@@ -10,31 +10,36 @@
 //!
 //! The derivative is a vector-Jacobian product: from the gradient of some loss by the points an
 //! operator put out, the gradients by the points it was given, its operator guide, its parameters
-//! and its random numbers.
+//! and its random numbers. Recoil, ruffle, switchback and skip work on all strands at once and have
+//! none.
 
 mod bend;
 mod clump;
 mod curl;
 mod curvature;
 mod frizz;
-mod measure;
+mod guides;
 mod scale;
+mod skip;
 mod straighten;
+mod strand;
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use tress_edit::{RecoilOptions, RuffleOptions};
 
+use crate::EvenStrands;
+
 pub use bend::Bend;
 pub use clump::Clump;
 pub use curl::Curl;
-pub(crate) use curl::{Normals, normals};
-pub use curvature::CurvatureError;
-pub(crate) use curvature::apply as apply_in_curvature_space;
+pub use curvature::{CurvatureError, Switchback};
 pub use frizz::Frizz;
-pub(crate) use measure::Scratch;
+pub(crate) use guides::{GuideRows, Guides};
 pub use scale::Scale;
+pub use skip::{Skip, SkipKeep};
 pub use straighten::Straighten;
+pub(crate) use strand::Scratch;
 
 /// Which formulas the operators follow where two are in use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -72,6 +77,10 @@ pub enum Operator {
     Recoil(RecoilOptions),
     /// Strands of an operator guide exchange pieces, in curvature space.
     Ruffle(RuffleOptions),
+    /// Coils that change hands, in curvature space.
+    Switchback(Switchback),
+    /// Turns left out.
+    Skip(Skip),
 }
 
 /// A parameter of an operator: its name and what it may be.
@@ -145,8 +154,8 @@ pub(crate) struct Setting<'a> {
     pub(crate) convention: Convention,
     /// The operator guide's points.
     pub(crate) guide: &'a [DVec3],
-    /// Normal and binormal at each of them; empty where nothing curls.
-    pub(crate) normals: &'a [Normals],
+    /// The same in rows, with its normals.
+    pub(crate) rows: GuideRows<'a>,
     /// The random numbers: the strand's in `[0]`, or the operator guide's.
     pub(crate) numbers: [f64; 2],
 }
@@ -172,10 +181,13 @@ impl Operator {
             Self::Straighten(_) => "straighten",
             Self::Recoil(_) => "recoil",
             Self::Ruffle(_) => "ruffle",
+            Self::Switchback(_) => "switchback",
+            Self::Skip(_) => "skip",
         }
     }
 
-    /// The parameters there are gradients by, in their order; none for recoil and ruffle.
+    /// The parameters there are gradients by, in their order; none where the operator
+    /// [has no derivative](Self::is_differentiable).
     #[must_use]
     pub fn parameters(&self) -> &'static [Parameter] {
         match self {
@@ -185,7 +197,7 @@ impl Operator {
             Self::Curl(_) => Curl::PARAMETERS,
             Self::Frizz(_) => Frizz::PARAMETERS,
             Self::Straighten(_) => Straighten::PARAMETERS,
-            Self::Recoil(_) | Self::Ruffle(_) => &[],
+            _ => &[],
         }
     }
 
@@ -198,7 +210,7 @@ impl Operator {
             Self::Curl(curl) => curl.fields(),
             Self::Frizz(frizz) => frizz.fields(),
             Self::Straighten(straighten) => straighten.fields(),
-            Self::Recoil(_) | Self::Ruffle(_) => Vec::new(),
+            _ => Vec::new(),
         }
     }
 
@@ -208,10 +220,19 @@ impl Operator {
         self.clone().values_mut().into_iter().map(|value| *value).collect()
     }
 
-    /// Whether the operator moves each strand by itself, and so has a derivative here.
+    /// Whether the operator has a derivative. Recoil, ruffle, switchback and skip have none: they
+    /// go through a fit, or choose by chance what they change.
     #[must_use]
     pub fn is_differentiable(&self) -> bool {
-        !matches!(self, Self::Recoil(_) | Self::Ruffle(_))
+        match self {
+            Self::Scale(_)
+            | Self::Clump(_)
+            | Self::Bend(_)
+            | Self::Curl(_)
+            | Self::Frizz(_)
+            | Self::Straighten(_) => true,
+            Self::Recoil(_) | Self::Ruffle(_) | Self::Switchback(_) | Self::Skip(_) => false,
+        }
     }
 
     pub(crate) fn draws(&self) -> Draws {
@@ -219,34 +240,58 @@ impl Operator {
             Self::Scale(_) | Self::Bend(_) => Draws::NormalPerStrand,
             Self::Curl(_) => Draws::TwoPerGuide,
             Self::Frizz(_) => Draws::EvenPerStrand,
-            Self::Clump(_) | Self::Straighten(_) | Self::Recoil(_) | Self::Ruffle(_) => Draws::None,
+            _ => Draws::None,
         }
     }
 
     /// An error if a parameter is outside its range; `index` is the operator's place in the chain.
     pub(crate) fn check(&self, index: usize) -> Result<(), ParameterError> {
-        for (parameter, value) in self.parameters().iter().zip(self.values()) {
-            let Parameter { name, least, greatest, .. } = *parameter;
-            if !(value.is_finite() && (least..=greatest).contains(&value)) {
-                let operator = self.name();
-                return Err(ParameterError { operator, index, name, value, least, greatest });
+        let check = |name, value: f64, least, greatest| {
+            if value.is_finite() && (least..=greatest).contains(&value) {
+                return Ok(());
             }
+            Err(ParameterError { operator: self.name(), index, name, value, least, greatest })
+        };
+        for (parameter, value) in self.parameters().iter().zip(self.values()) {
+            check(parameter.name, value, parameter.least, parameter.greatest)?;
         }
-        Ok(())
+        match self {
+            Self::Skip(skip) => check("probability", skip.probability, 0.0, 1.0),
+            _ => Ok(()),
+        }
     }
 
-    /// Moves the points of one strand; those in curvature space leave them as they are.
-    #[inline]
-    pub(crate) fn apply(&self, strand: &mut [DVec3], at: &Setting<'_>, scratch: &mut Scratch) {
+    /// Moves the points of the strand that `scratch` holds; an operator that has no derivative
+    /// leaves them as they are.
+    #[inline(always)]
+    pub(crate) fn apply(&self, at: &Setting<'_>, scratch: &mut Scratch) {
         match self {
-            Self::Scale(scale) => scale.apply(strand, at),
-            Self::Clump(clump) => clump.apply(strand, at, scratch),
-            Self::Bend(bend) => bend.apply(strand, at, scratch),
-            Self::Curl(curl) => curl.apply(strand, at, scratch),
-            Self::Frizz(frizz) => frizz.apply(strand, at, scratch),
-            Self::Straighten(straighten) => straighten.apply(strand, scratch),
-            Self::Recoil(_) | Self::Ruffle(_) => {}
+            Self::Scale(scale) => scale.apply(at, scratch),
+            Self::Clump(clump) => clump.apply(at, scratch),
+            Self::Bend(bend) => bend.apply(at, scratch),
+            Self::Curl(curl) => curl.apply(at, scratch),
+            Self::Frizz(frizz) => frizz.apply(at, scratch),
+            Self::Straighten(straighten) => straighten.apply(scratch),
+            _ => {}
         }
+    }
+
+    /// Changes all strands by an operator that has no derivative; `operator_of[i]` is the group of
+    /// strand `i`. If it fails there are no strands left.
+    pub(crate) fn apply_to_all(
+        &self,
+        strands: &mut EvenStrands,
+        operator_of: &[u32],
+        seed: u64,
+    ) -> Result<(), CurvatureError> {
+        if let Self::Skip(skip) = self {
+            skip.apply(strands, seed);
+        } else {
+            let none = EvenStrands::zeros(0, strands.points_each());
+            let given = std::mem::replace(strands, none);
+            *strands = curvature::apply(self, given, operator_of, seed)?;
+        }
+        Ok(())
     }
 
     /// The gradient by the strand given, in place of that by the strand put out; the rest is added
@@ -266,7 +311,7 @@ impl Operator {
             Self::Curl(curl) => curl.pull_back(strand, at, gradient, sums, scratch),
             Self::Frizz(frizz) => frizz.pull_back(strand, at, gradient, sums, scratch),
             Self::Straighten(straighten) => straighten.pull_back(strand, gradient, sums, scratch),
-            Self::Recoil(_) | Self::Ruffle(_) => {}
+            _ => {}
         }
     }
 }

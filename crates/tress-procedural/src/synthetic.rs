@@ -147,9 +147,11 @@ pub fn known(style: usize, share: f64) -> Result<Known, BuildError> {
     let wanted = style.strands as f64 * share;
     let strands = (1..=style.strands).take_while(|&n| n as f64 <= wanted).last().unwrap_or(1);
     let guide_roots = cap(GUIDES);
-    let points = guide_roots.positions.iter().flat_map(|root| guide(*root, &style)).collect();
-    let guides = EvenStrands::new(POINTS, points).map_err(crate::CurvatureError::from);
-    let mut groom = ProceduralGroom::new(guides.map_err(crate::ChainError::from)?, cap(strands))?;
+    let mut guides = EvenStrands::zeros(GUIDES, POINTS);
+    for (strand, root) in guides.points_mut().chunks_exact_mut(POINTS).zip(&guide_roots.positions) {
+        strand.iter_mut().zip(guide(*root, &style)).for_each(|(x, here)| *x = here);
+    }
+    let mut groom = ProceduralGroom::new(guides, cap(strands))?;
     groom.guide_uv = guide_roots.uv;
     groom.instancing = Instancing::Gaussian { neighbors: 4, sigma: 0.02 };
     groom.seed = 11;

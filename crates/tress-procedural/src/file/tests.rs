@@ -59,6 +59,23 @@ fn an_operator_added_by_hand_draws_numbers_and_leaves_the_others_theirs() {
 }
 
 #[test]
+fn every_operator_is_written_and_read() {
+    let text = "operators: [
+        Straighten(amount: 0.5),
+        Recoil(radius: 0.5, keep: Turns),
+        Ruffle(probability: 0.1),
+        Switchback(places: shares([0.25, 0.75]), shape: (poisson_ratio: 0.3)),
+        Skip(probability: 0.2, each: Points, keep: Length),";
+    let (folder, path) = written(|given| given.replace("operators: [", text));
+    let read = ProceduralGroom::read(&path).expect("an edited groom");
+    let names: Vec<&str> = read.chain.operators.iter().map(Operator::name).collect();
+    assert_eq!(names[..5], ["straighten", "recoil", "ruffle", "switchback", "skip"]);
+    let again = folder.path().join("again.ron");
+    read.write(&again).expect("a writable folder");
+    assert_eq!(ProceduralGroom::read(&again).expect("what was written"), read);
+}
+
+#[test]
 fn an_unknown_operator_is_named_with_its_place() {
     let (_folder, path) = written(|text| text.replace("Bend(", "Bent("));
     let error = ProceduralGroom::read(&path).expect_err("no such operator").to_string();
@@ -93,6 +110,27 @@ fn arrays_that_are_missing_cut_short_or_not_there_are_refused() {
     assert!(matches!(ProceduralGroom::read(&path), Err(FileError::Data { .. })));
     std::fs::remove_file(&beside).expect("it is there");
     assert!(matches!(ProceduralGroom::read(&path), Err(FileError::Io { .. })));
+}
+
+#[test]
+fn guides_over_a_scalp_are_stored_with_the_groom() {
+    use tress_geometry::Mesh;
+    let corners = [(-1.0, -1.0), (9.0, -1.0), (-1.0, 9.0)].map(|(x, z)| DVec3::new(x, 0.0, z));
+    let mesh = Mesh::new(corners.to_vec(), vec![[0, 1, 2]]).expect("corners");
+    let scalp = crate::Surface::new(&mesh).expect("a mesh");
+    let mut groom = groom();
+    groom.instance_over(&scalp, 3, 0.5).expect("a sound sigma");
+    // On one flat triangle, the way over it is the way in space.
+    let roots = Roots { uv: None, ..groom.roots.clone() };
+    let in_space = crate::Instances::by_distance(&groom.guide_roots(), &roots, 3, 0.5);
+    let stored = groom.instances.clone().expect("stored");
+    assert_eq!(stored.guides, in_space.guides);
+    assert!(stored.weights.iter().zip(&in_space.weights).all(|(a, b)| (a - b).abs() < 1e-3));
+    assert_eq!(groom.instancing, Instancing::Stored);
+    let nearest: Vec<u32> = stored.guides.iter().step_by(3).copied().collect();
+    assert_eq!(groom.operator_of, nearest);
+    assert_eq!(groom.build(), groom.build());
+    assert!(matches!(groom.instance_over(&scalp, 3, 0.0), Err(BuildError::Sigma(_))));
 }
 
 #[test]

@@ -14,7 +14,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::measure::by_vector;
+use super::strand::{by_vector, running_sums};
 use super::{Convention, Scratch, Setting, Sums, parameters};
 use crate::functions::{sigmoid, sin_cos_turns};
 
@@ -48,7 +48,7 @@ struct Axis {
 }
 
 impl Axis {
-    #[inline]
+    #[inline(always)]
     fn new(guide: &[DVec3], u: f64) -> Self {
         let e = guide[1] - guide[0];
         let t = e.normalize_or_zero();
@@ -82,7 +82,7 @@ impl Axis {
 }
 
 /// `R(axis, phi) e` from the sine and cosine of `phi`.
-#[inline]
+#[inline(always)]
 fn rotated(axis: DVec3, sine: f64, cosine: f64, e: DVec3) -> DVec3 {
     cosine * e + sine * axis.cross(e) + ((1.0 - cosine) * axis.dot(e)) * axis
 }
@@ -98,41 +98,49 @@ impl Bend {
 
     /// Fills `weight` with `z`, `by_length` with the sums of `l z`, sine and cosine with those of
     /// each segment's angle; gives one over the length and one over `l'`.
-    #[inline]
-    fn angles(&self, strand: &[DVec3], at: &Setting<'_>, scratch: &mut Scratch) -> (f64, f64) {
-        let one_over_length = scratch.measure(strand);
+    #[inline(always)]
+    fn angles(&self, at: &Setting<'_>, scratch: &mut Scratch) -> (f64, f64) {
+        let one_over_length = scratch.measure();
         let (steep, shift) = Self::onset(at.convention);
         let shift = steep * (shift - self.start);
-        let n = strand.len() - 1;
         let steep = steep * one_over_length;
-        for (z, s) in scratch.weight[..n].iter_mut().zip(&scratch.arc[1..]) {
+        let bent = &mut scratch.moved[0];
+        let segments = scratch.weight.iter_mut().zip(&scratch.arc[1..]).zip(&scratch.lengths);
+        for (((z, s), length), bent) in segments.zip(bent.iter_mut()) {
             *z = sigmoid(steep * s + shift);
+            *bent = *z * length;
         }
-        let sums = &mut scratch.by_length[..n];
-        let mut sum = 0.0;
-        for (k, (z, length)) in scratch.weight[..n].iter().zip(&scratch.lengths).enumerate() {
-            sum += z * length;
-            sums[k] = sum;
-        }
+        let sum = running_sums(0.0, bent, &mut scratch.by_length);
         let one_over_sum = if sum > 0.0 { 1.0 / sum } else { 0.0 };
         let turns = self.angle_degrees / 360.0 * one_over_sum;
-        let (sine, cosine) = (&mut scratch.sine[..n], &mut scratch.cosine[..n]);
-        for ((sine, cosine), sum) in sine.iter_mut().zip(cosine).zip(sums) {
+        let turning = scratch.sine.iter_mut().zip(&mut scratch.cosine);
+        for ((sine, cosine), sum) in turning.zip(&scratch.by_length) {
             (*sine, *cosine) = sin_cos_turns(turns * *sum);
         }
         (one_over_length, one_over_sum)
     }
 
-    #[inline]
-    pub(super) fn apply(&self, strand: &mut [DVec3], at: &Setting<'_>, scratch: &mut Scratch) {
-        self.angles(strand, at, scratch);
-        let axis = Axis::new(at.guide, at.numbers[0]).axis;
-        let mut before = strand[0];
-        let mut end = strand[0];
-        for (k, x) in strand[1..].iter_mut().enumerate() {
-            end += rotated(axis, scratch.sine[k], scratch.cosine[k], *x - before);
-            before = *x;
-            *x = end;
+    #[inline(always)]
+    pub(super) fn apply(&self, at: &Setting<'_>, scratch: &mut Scratch) {
+        self.angles(at, scratch);
+        let a = Axis::new(at.guide, at.numbers[0]).axis;
+        let n = scratch.lengths.len();
+        let (sine, cosine) = (&scratch.sine[..n], &scratch.cosine[..n]);
+        {
+            let [xs, ys, zs] = &scratch.rows;
+            let (x, x_next) = (&xs[..n], &xs[1..=n]);
+            let (y, y_next) = (&ys[..n], &ys[1..=n]);
+            let (z, z_next) = (&zs[..n], &zs[1..=n]);
+            let [turned_x, turned_y, turned_z] = &mut scratch.moved;
+            let turned = turned_x.iter_mut().zip(turned_y).zip(turned_z);
+            for (k, ((turned_x, turned_y), turned_z)) in turned.enumerate() {
+                let e = DVec3::new(x_next[k] - x[k], y_next[k] - y[k], z_next[k] - z[k]);
+                let turned = rotated(a, sine[k], cosine[k], e);
+                (*turned_x, *turned_y, *turned_z) = (turned.x, turned.y, turned.z);
+            }
+        }
+        for (row, turned) in scratch.rows.iter_mut().zip(&scratch.moved) {
+            running_sums(row[0], turned, &mut row[1..]);
         }
     }
 
@@ -144,7 +152,8 @@ impl Bend {
         sums: &mut Sums<'_>,
         scratch: &mut Scratch,
     ) {
-        let (one_over_length, one_over_sum) = self.angles(strand, at, scratch);
+        scratch.load(strand);
+        let (one_over_length, one_over_sum) = self.angles(at, scratch);
         let frame = Axis::new(at.guide, at.numbers[0]);
         let a = frame.axis;
         let n = strand.len() - 1;

@@ -24,21 +24,20 @@ parameters!(Clump {
 impl Clump {
     /// Fills `scratch.cosine` with `v` and `scratch.weight` with `exp(-a v)`; gives one over the
     /// length where `v` goes by it.
-    #[inline]
-    fn weigh(&self, strand: &[DVec3], at: &Setting<'_>, scratch: &mut Scratch) -> f64 {
-        let n = strand.len();
+    #[inline(always)]
+    fn weigh(&self, at: &Setting<'_>, scratch: &mut Scratch) -> f64 {
         let one_over_length = match at.convention {
             Convention::Paper => {
-                let one_over_length = scratch.measure(strand);
-                for (v, s) in scratch.cosine[..n].iter_mut().zip(&scratch.arc) {
+                let one_over_length = scratch.measure();
+                for (v, s) in scratch.cosine.iter_mut().zip(&scratch.arc) {
                     *v = s * one_over_length;
                 }
                 one_over_length
             }
             Convention::PublishedProgram => {
-                let step = 1.0 / (n - 1) as f64;
+                let step = 1.0 / (scratch.arc.len() - 1) as f64;
                 let mut index = 0.0;
-                for v in &mut scratch.cosine[..n] {
+                for v in &mut scratch.cosine {
                     *v = index * step;
                     index += 1.0;
                 }
@@ -46,17 +45,21 @@ impl Clump {
             }
         };
         let a = self.profile;
-        for (weight, v) in scratch.weight[..n].iter_mut().zip(&scratch.cosine) {
+        for (weight, v) in scratch.weight.iter_mut().zip(&scratch.cosine) {
             *weight = exp(-a * v);
         }
         one_over_length
     }
 
-    #[inline]
-    pub(super) fn apply(&self, strand: &mut [DVec3], at: &Setting<'_>, scratch: &mut Scratch) {
-        self.weigh(strand, at, scratch);
-        for ((x, g), w) in strand.iter_mut().zip(at.guide).zip(&scratch.weight) {
-            *x = *g + (*x - *g) * *w;
+    #[inline(always)]
+    pub(super) fn apply(&self, at: &Setting<'_>, scratch: &mut Scratch) {
+        self.weigh(at, scratch);
+        // The root's weight is 1: it stays to the last bit.
+        let weights = &scratch.weight[1..];
+        for (row, guide) in scratch.rows.iter_mut().zip(at.rows.points) {
+            for ((x, g), w) in row[1..].iter_mut().zip(&guide[1..]).zip(weights) {
+                *x = g + (*x - g) * w;
+            }
         }
     }
 
@@ -69,7 +72,8 @@ impl Clump {
         scratch: &mut Scratch,
     ) {
         scratch.clear();
-        let one_over_length = self.weigh(strand, at, scratch);
+        scratch.load(strand);
+        let one_over_length = self.weigh(at, scratch);
         for j in 0..strand.len() {
             let (v, w, by_x) = (scratch.cosine[j], scratch.weight[j], gradient[j]);
             let by_exponent = -w * by_x.dot(strand[j] - at.guide[j]);

@@ -16,8 +16,8 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::measure::by_vector;
-use super::{Convention, Scratch, Setting, Sums, parameters};
+use super::strand::by_vector;
+use super::{Convention, GuideRows, Scratch, Setting, Sums, parameters};
 use crate::functions::{sigmoid, sin_cos_turns};
 
 /// Strands wound about their operator guide.
@@ -42,9 +42,6 @@ parameters!(Curl {
     start: 0.0, 1.0, 0.5;
 });
 
-/// Normal and binormal at a point of an operator guide.
-pub(crate) type Normals = [DVec3; 2];
-
 /// Turns that `u_2` can shift a curl by, as printed.
 const PHASE: f64 = 3.9;
 /// Radius at the root over `rho`, and how much it grows towards the tip, as printed.
@@ -60,18 +57,12 @@ fn across(t: DVec3) -> Option<DVec3> {
     (t.x.abs() + t.y.abs() >= 1e-4).then(|| DVec3::new(t.y, -t.x, 0.0))
 }
 
-fn tangent(guide: &[DVec3], j: usize) -> DVec3 {
-    let (a, b) = neighbors(j, guide.len());
-    (guide[b] - guide[a]).normalize_or_zero()
-}
-
-/// Normals and binormals along an operator guide.
-pub(crate) fn normals(guide: &[DVec3], out: &mut [Normals]) {
-    for (j, out) in out.iter_mut().enumerate() {
-        let t = tangent(guide, j);
-        let n = across(t).map_or(DVec3::X, DVec3::normalize);
-        *out = [n, t.cross(n)];
-    }
+/// Normal and binormal at point `j` of an operator guide; the normal's z is 0.
+pub(super) fn normals(guide: &[DVec3], j: usize) -> [DVec3; 2] {
+    let (first, last) = neighbors(j, guide.len());
+    let t = (guide[last] - guide[first]).normalize_or_zero();
+    let n = across(t).map_or(DVec3::X, DVec3::normalize);
+    [n, t.cross(n)]
 }
 
 impl Curl {
@@ -87,36 +78,47 @@ impl Curl {
     }
 
     /// Fills `weight` with `z`, sine and cosine with those of the turning; gives one over length.
-    #[inline]
-    fn wind(&self, strand: &[DVec3], at: &Setting<'_>, scratch: &mut Scratch) -> f64 {
-        let one_over_length = scratch.measure(strand);
-        let n = strand.len();
+    #[inline(always)]
+    fn wind(&self, at: &Setting<'_>, scratch: &mut Scratch) -> f64 {
+        let one_over_length = scratch.measure();
         let (steep, shift) = Self::onset(at.convention);
         let shift = steep * (shift - self.start);
         let steep = steep * one_over_length;
-        for (z, s) in scratch.weight[..n].iter_mut().zip(&scratch.arc) {
+        for (z, s) in scratch.weight.iter_mut().zip(&scratch.arc) {
             *z = sigmoid(steep * s + shift);
         }
         let (turns, phase) = (self.turns(at.numbers[0]), PHASE * at.numbers[1]);
-        let (sine, cosine) = (&mut scratch.sine[..n], &mut scratch.cosine[..n]);
-        for ((sine, cosine), s) in sine.iter_mut().zip(cosine).zip(&scratch.arc) {
+        let turning = scratch.sine.iter_mut().zip(&mut scratch.cosine);
+        for ((sine, cosine), s) in turning.zip(&scratch.arc) {
             (*sine, *cosine) = sin_cos_turns(turns * s + phase);
         }
         one_over_length
     }
 
-    #[inline]
-    pub(super) fn apply(&self, strand: &mut [DVec3], at: &Setting<'_>, scratch: &mut Scratch) {
-        let one_over_length = self.wind(strand, at, scratch);
+    #[inline(always)]
+    pub(super) fn apply(&self, at: &Setting<'_>, scratch: &mut Scratch) {
+        let one_over_length = self.wind(at, scratch);
         let [start, growth] = RADIUS.map(|factor| factor * self.radius);
         let growth = growth * one_over_length;
-        for (weight, s) in scratch.weight.iter_mut().zip(&scratch.arc) {
-            *weight *= start + growth * s;
+        let turning = scratch.sine.iter_mut().zip(&mut scratch.cosine);
+        for ((sine, cosine), (z, s)) in turning.zip(scratch.weight.iter().zip(&scratch.arc)) {
+            let radius = z * (start + growth * s);
+            *sine *= radius;
+            *cosine *= radius;
         }
-        let turning = scratch.sine.iter().zip(&scratch.cosine).zip(&scratch.weight);
-        let points = strand.iter_mut().zip(at.normals).zip(turning);
-        for ((x, [n, b]), ((sine, cosine), radius)) in points.skip(1) {
-            *x += (radius * sine) * *n + (radius * cosine) * *b;
+        let (sine, cosine) = (&scratch.sine[1..], &scratch.cosine[1..]);
+        let GuideRows { normals: [nx, ny], binormals, .. } = at.rows;
+        let [x, y, z] = &mut scratch.rows;
+        for (row, normals, binormals) in [(x, nx, binormals[0]), (y, ny, binormals[1])] {
+            let axes = normals[1..].iter().zip(&binormals[1..]);
+            for ((x, (n, b)), (sine, cosine)) in
+                row[1..].iter_mut().zip(axes).zip(sine.iter().zip(cosine))
+            {
+                *x += sine * n + cosine * b;
+            }
+        }
+        for ((z, b), cosine) in z[1..].iter_mut().zip(&binormals[2][1..]).zip(cosine) {
+            *z += cosine * b;
         }
     }
 
@@ -129,14 +131,15 @@ impl Curl {
         scratch: &mut Scratch,
     ) {
         scratch.clear();
-        let one_over_length = self.wind(strand, at, scratch);
+        scratch.load(strand);
+        let one_over_length = self.wind(at, scratch);
         let turns = self.turns(at.numbers[0]);
         let (steep, _) = Self::onset(at.convention);
         let mut by_turns = 0.0;
         #[expect(clippy::needless_range_loop, reason = "many arrays run along")]
         for j in 1..strand.len() {
             let (z, sine, cosine) = (scratch.weight[j], scratch.sine[j], scratch.cosine[j]);
-            let (s, by_x, [n, b]) = (scratch.arc[j], gradient[j], at.normals[j]);
+            let (s, by_x, [n, b]) = (scratch.arc[j], gradient[j], at.rows.normals(j));
             let swell = RADIUS[0] + RADIUS[1] * s * one_over_length;
             let (along_n, along_b) = (by_x.dot(n), by_x.dot(b));
             let radial = sine * along_n + cosine * along_b;

@@ -41,20 +41,20 @@ fn octaves(convention: Convention) -> [f64; 2] {
 impl Frizz {
     /// Fills `weight` with the arc lengths that the noise goes by; gives the step between points
     /// over the strand's length where it goes by index.
-    #[inline]
-    fn place(strand: &[DVec3], at: &Setting<'_>, scratch: &mut Scratch) -> f64 {
-        let n = strand.len();
-        scratch.measure(strand);
+    #[inline(always)]
+    fn place(at: &Setting<'_>, scratch: &mut Scratch) -> f64 {
+        scratch.measure();
         match at.convention {
             Convention::Paper => {
-                scratch.weight[..n].copy_from_slice(&scratch.arc[..n]);
+                scratch.weight.copy_from_slice(&scratch.arc);
                 0.0
             }
             Convention::PublishedProgram => {
-                let step = 1.0 / (n - 1) as f64;
-                let length = scratch.arc[n - 1];
+                let last = scratch.arc.len() - 1;
+                let step = 1.0 / last as f64;
+                let length = scratch.arc[last];
                 let mut index = 0.0;
-                for place in &mut scratch.weight[..n] {
+                for place in &mut scratch.weight {
                     *place = index * step * length;
                     index += 1.0;
                 }
@@ -63,18 +63,16 @@ impl Frizz {
         }
     }
 
-    #[inline]
-    pub(super) fn apply(&self, strand: &mut [DVec3], at: &Setting<'_>, scratch: &mut Scratch) {
-        Self::place(strand, at, scratch);
+    #[inline(always)]
+    pub(super) fn apply(&self, at: &Setting<'_>, scratch: &mut Scratch) {
+        Self::place(at, scratch);
         let [first, second] = octaves(at.convention).map(|factor| 0.5 * self.amplitude * factor);
-        let shift = SHIFT * at.numbers[0];
-        for (x, s) in strand.iter_mut().zip(&scratch.weight).skip(1) {
-            let chi = self.frequency * s + shift;
-            let at = |offset: f64| {
-                let chi = chi + offset;
-                first * perlin(chi) + second * perlin(2.0 * chi)
-            };
-            *x += DVec3::new(at(OFFSETS[0]), at(OFFSETS[1]), at(OFFSETS[2]));
+        for (row, offset) in scratch.rows.iter_mut().zip(OFFSETS) {
+            let shift = SHIFT * at.numbers[0] + offset;
+            for (x, s) in row[1..].iter_mut().zip(&scratch.weight[1..]) {
+                let chi = self.frequency * s + shift;
+                *x += first * perlin(chi) + second * perlin(2.0 * chi);
+            }
         }
     }
 
@@ -87,7 +85,8 @@ impl Frizz {
         scratch: &mut Scratch,
     ) {
         scratch.clear();
-        let step = Self::place(strand, at, scratch);
+        scratch.load(strand);
+        let step = Self::place(at, scratch);
         let [first, second] = octaves(at.convention);
         let last = strand.len() - 1;
         let mut index = 0.0;

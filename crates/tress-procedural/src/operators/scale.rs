@@ -5,7 +5,7 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::{Setting, Sums, parameters};
+use super::{Scratch, Setting, Sums, parameters};
 
 /// Strands of random lengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -20,11 +20,13 @@ parameters!(Scale {
 });
 
 impl Scale {
-    #[inline]
-    pub(super) fn apply(&self, strand: &mut [DVec3], at: &Setting<'_>) {
+    #[inline(always)]
+    pub(super) fn apply(&self, at: &Setting<'_>, scratch: &mut Scratch) {
         let factor = 1.0 + self.random * at.numbers[0];
-        let root = strand[0];
-        strand[1..].iter_mut().for_each(|x| *x = root + factor * (*x - root));
+        for row in &mut scratch.rows {
+            let root = row[0];
+            row[1..].iter_mut().for_each(|x| *x = root + factor * (*x - root));
+        }
     }
 
     pub(super) fn pull_back(

@@ -11,7 +11,7 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::measure::by_vector;
+use super::strand::by_vector;
 use super::{Scratch, Sums, parameters};
 
 /// Strands pulled straight, their lengths kept.
@@ -53,14 +53,18 @@ impl Straighten {
         (j.saturating_sub(reach), (j + 1 + reach).min(n - 1))
     }
 
-    pub(super) fn apply(&self, strand: &mut [DVec3], scratch: &mut Scratch) {
-        let n = strand.len();
-        scratch.points[..n].copy_from_slice(strand);
-        let points = &scratch.points;
-        for j in 0..n - 1 {
-            let (e, _, q) = self.turned(&points[..n], j);
-            strand[j + 1] = strand[j] + q.normalize_or_zero() * e.length();
+    pub(super) fn apply(&self, scratch: &mut Scratch) {
+        let mut points = std::mem::take(&mut scratch.points);
+        scratch.store(&mut points);
+        let mut end = points[0];
+        for j in 0..points.len() - 1 {
+            let (e, _, q) = self.turned(&points, j);
+            end += q.normalize_or_zero() * e.length();
+            for (row, x) in scratch.rows.iter_mut().zip(end.to_array()) {
+                row[j + 1] = x;
+            }
         }
+        scratch.points = points;
     }
 
     /// Segment `j`, the direction of its surroundings, and `q_j`.
