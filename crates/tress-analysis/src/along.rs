@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use glam::DVec3;
+
 use crate::winding::Stations;
 use crate::{Winding, darboux};
 
@@ -28,10 +30,15 @@ pub struct Along {
     /// Turns a unit of centerline, `|omega| / 2 pi` of [CSE 12]; finite where twist vanishes
     /// (a coil is not counted as flatter than [`FLATTEST`]), 0 where the strand does not wind.
     pub frequency: Vec<f64>,
-    /// Beta [CSE 14].
+    /// Beta [CSE 14] against the centerline of the [`Winding`].
     pub beta: Vec<f64>,
+    /// Beta against the published centerline, [`tress_fit::fourier_centerline`]: the same on a coil
+    /// about a straight line, less where the line bends faster than that low-pass can follow.
+    pub beta_fourier: Vec<f64>,
     /// 1 right-handed coil, -1 left-handed coil, 0 planar wave or straight.
     pub circularity: Vec<f64>,
+    /// The centerline; of a strand that nowhere winds, the strand itself.
+    pub center: Vec<DVec3>,
 }
 
 /// Least advance of a centerline a unit of arc length that frequencies are told from: a coil with
@@ -42,9 +49,9 @@ pub const FLATTEST: f64 = 0.01;
 const WINDOW: f64 = 1.0 / 16.0;
 
 impl Along {
-    /// The columns by name, in the order of the fields, the arc length first.
+    /// The columns of numbers by name, in the order of the fields, the arc length first.
     #[must_use]
-    pub fn columns(&self) -> [(&'static str, &[f64]); 8] {
+    pub fn columns(&self) -> [(&'static str, &[f64]); 9] {
         [
             ("arc_length", &self.arc_length),
             ("curvature", &self.curvature),
@@ -53,11 +60,12 @@ impl Along {
             ("pitch", &self.pitch),
             ("frequency", &self.frequency),
             ("beta", &self.beta),
+            ("beta_fourier", &self.beta_fourier),
             ("circularity", &self.circularity),
         ]
     }
 
-    fn columns_mut(&mut self) -> [&mut Vec<f64>; 8] {
+    fn columns_mut(&mut self) -> [&mut Vec<f64>; 9] {
         [
             &mut self.arc_length,
             &mut self.curvature,
@@ -66,6 +74,7 @@ impl Along {
             &mut self.pitch,
             &mut self.frequency,
             &mut self.beta,
+            &mut self.beta_fourier,
             &mut self.circularity,
         ]
     }
@@ -75,6 +84,7 @@ impl Along {
         for (all, more) in self.columns_mut().into_iter().zip(other.columns_mut()) {
             all.append(more);
         }
+        self.center.append(&mut other.center);
     }
 
     /// Appends places of which nothing is known.
@@ -82,6 +92,7 @@ impl Along {
         for column in self.columns_mut() {
             column.resize(column.len() + places, f64::NAN);
         }
+        self.center.resize(self.center.len() + places, DVec3::NAN);
     }
 
     /// Of one strand at its stations.
@@ -100,7 +111,9 @@ impl Along {
                 pitch: none(),
                 frequency: none(),
                 beta: none(),
+                beta_fourier: none(),
                 circularity: none(),
+                center: stations.positions.clone(),
             };
         };
         let straight = w.rate.contains(&0.0).then(bend);
@@ -113,6 +126,7 @@ impl Along {
             rate => (TAU * w.advance[k] / rate).copysign(w.circularity[k]),
         };
         let frequency = |k: usize| w.rate[k] / (TAU * w.advance[k].max(FLATTEST));
+        let [beta, beta_fourier] = darboux::betas(&stations.positions, w);
         Self {
             arc_length,
             curvature: (0..n).map(curvature).collect(),
@@ -120,8 +134,10 @@ impl Along {
             radius: w.radius.clone(),
             pitch: (0..n).map(pitch).collect(),
             frequency: (0..n).map(frequency).collect(),
-            beta: darboux::beta(&stations.positions, w),
+            beta,
+            beta_fourier,
             circularity: w.circularity.clone(),
+            center: w.center.clone(),
         }
     }
 
@@ -140,6 +156,8 @@ impl Along {
             column.extend(places.iter().map(|&(i, f)| from[i] + (from[i + 1] - from[i]) * f));
         }
         at.arc_length.copy_from_slice(arc_lengths);
+        at.center =
+            places.iter().map(|&(i, f)| self.center[i].lerp(self.center[i + 1], f)).collect();
         at
     }
 }

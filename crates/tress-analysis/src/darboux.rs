@@ -5,23 +5,51 @@
 //! positions are first averaged over an eighth of a turn, twice, torsion over a quarter, and beta
 //! over the turn as `<c' . W> / <|W|>`: 1 on a right-handed coil whatever its pitch, -1 on a
 //! left-handed one, 0 on a wave in a plane, whose binormal flips.
+//!
+//! It is told twice: against the centerline of the [`Winding`], which follows the strand's bends
+//! turn by turn, and against the published one [CC 3.2.1], a low-pass that has two cycles at most
+//! from root to tip.
 
 use glam::DVec3;
+use tress_fit::fourier_centerline;
 
 use crate::Winding;
 use crate::winding::{half_window, turn_means};
 
-/// Beta at the stations of a winding, and the curvature there where the strand does not wind.
-pub(crate) fn beta(positions: &[DVec3], winding: &Winding) -> Vec<f64> {
+/// Of so many stations one is enough for a line of two cycles: it leaves four a turn, so that the
+/// coil is not mistaken for something slower.
+const THINNED: usize = 8;
+
+/// Beta at the stations of a winding: against its own centerline, and against the published one.
+pub(crate) fn betas(positions: &[DVec3], winding: &Winding) -> [Vec<f64>; 2] {
     let periods = winding.periods();
     let vectors = darboux(positions, &periods, winding.spacing);
+    let published = fourier_tangents(positions);
     let products: Vec<DVec3> = vectors
         .iter()
-        .zip(&winding.direction)
-        .map(|(w, t)| DVec3::new(w.dot(*t), w.length(), 0.0))
+        .zip(winding.direction.iter().zip(&published))
+        .map(|(w, (t, f))| DVec3::new(w.dot(*t), w.dot(*f), w.length()))
         .collect();
-    let share = |mean: DVec3| if 0.0 < mean.y { (mean.x / mean.y).clamp(-1.0, 1.0) } else { 0.0 };
-    turn_means(&products, &periods).into_iter().map(share).collect()
+    let means = turn_means(&products, &periods);
+    let beta = |along: fn(&DVec3) -> f64| {
+        let share = |m: &DVec3| if 0.0 < m.z { (along(m) / m.z).clamp(-1.0, 1.0) } else { 0.0 };
+        means.iter().map(share).collect()
+    };
+    [beta(|mean| mean.x), beta(|mean| mean.y)]
+}
+
+/// Unit tangents of the published centerline at the stations.
+fn fourier_tangents(positions: &[DVec3]) -> Vec<DVec3> {
+    let thinned: Vec<DVec3> = positions.iter().step_by(THINNED).copied().collect();
+    // Stations are finite and not all in one place.
+    let Ok(line) = fourier_centerline(&thinned) else { return vec![DVec3::ZERO; positions.len()] };
+    let tangents: Vec<DVec3> = line.frames().iter().map(|frame| frame.tangent()).collect();
+    let at = |k: usize| {
+        let (i, rest) = (k / THINNED, k % THINNED);
+        let next = tangents[(i + 1).min(tangents.len() - 1)];
+        tangents[i].lerp(next, rest as f64 / THINNED as f64).normalize_or_zero()
+    };
+    (0..positions.len()).map(at).collect()
 }
 
 /// Curvature of a strand that does not wind: the mean bend over a window of stations.

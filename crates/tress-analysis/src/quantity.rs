@@ -29,11 +29,13 @@ pub enum Quantity {
     Pitch,
     /// Beta [CSE 14] along a strand: 1 right-handed coil, -1 left-handed coil, 0 planar wave.
     Beta,
+    /// The same against the published centerline.
+    BetaFourier,
 }
 
 impl Quantity {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Radius,
         Self::Turns,
         Self::Length,
@@ -43,6 +45,7 @@ impl Quantity {
         Self::Frequency,
         Self::Pitch,
         Self::Beta,
+        Self::BetaFourier,
     ];
 
     /// The name by which it is asked for.
@@ -58,6 +61,7 @@ impl Quantity {
             Self::Frequency => "frequency",
             Self::Pitch => "pitch",
             Self::Beta => "beta",
+            Self::BetaFourier => "beta-fourier",
         }
     }
 
@@ -74,6 +78,7 @@ impl Quantity {
             Self::Frequency => "turns a length of centerline",
             Self::Pitch => "pitch (negative left, positive right)",
             Self::Beta => "beta (-1 left, 0 planar, 1 right)",
+            Self::BetaFourier => "beta, Fourier centerline (-1 left, 0 planar, 1 right)",
         }
     }
 
@@ -82,7 +87,7 @@ impl Quantity {
     pub fn length_power(self) -> i32 {
         match self {
             Self::Radius | Self::Length | Self::Pitch => 1,
-            Self::Turns | Self::Handedness | Self::Beta => 0,
+            Self::Turns | Self::Handedness | Self::Beta | Self::BetaFourier => 0,
             Self::Curvature | Self::Twist | Self::Frequency => -1,
         }
     }
@@ -90,7 +95,8 @@ impl Quantity {
     /// Whether values lie on both sides of 0, which is then the middle of a scale.
     #[must_use]
     pub fn is_signed(self) -> bool {
-        matches!(self, Self::Handedness | Self::Twist | Self::Pitch | Self::Beta)
+        let signed = [Self::Handedness, Self::Twist, Self::Pitch, Self::Beta, Self::BetaFourier];
+        signed.contains(&self)
     }
 }
 
@@ -98,7 +104,7 @@ impl Quantity {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "no quantity is called {0:?}; there is: radius, turns, length, handedness, curvature, twist, \
-     frequency, pitch, beta"
+     frequency, pitch, beta, beta-fourier"
 )]
 pub struct UnknownQuantity(pub String);
 
@@ -179,6 +185,7 @@ impl Along {
             Quantity::Frequency => Some(&self.frequency),
             Quantity::Pitch => Some(&self.pitch),
             Quantity::Beta => Some(&self.beta),
+            Quantity::BetaFourier => Some(&self.beta_fourier),
             Quantity::Radius | Quantity::Turns | Quantity::Length | Quantity::Handedness => None,
         }
     }

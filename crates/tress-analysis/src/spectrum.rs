@@ -6,6 +6,7 @@
 //! own limit.
 
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 use glam::DVec3;
 use serde::Serialize;
@@ -39,21 +40,35 @@ impl Spectrum {
 
     /// Adds the power of a strand at whole numbers of cycles over its length.
     pub(crate) fn add(&mut self, power: &[f64], length: f64) {
+        let shift = BINS * length.log2();
+        // The bin under way: lines ascend, and most bins hold many of them.
+        let mut under_way = (0, 0.0);
         // The mean bend of a strand, its zeroth cycle, is no variation.
         for (k, power) in power.iter().enumerate().skip(1) {
             if *power == 0.0 {
                 continue;
             }
             // A line of the transform stands for the band up to its neighbours.
-            let [low, high] = [-0.5, 0.5].map(|by| BINS * ((k as f64 + by) / length).log2());
+            let [low, high] = [k - 1, k].map(|below| middle(below) - shift);
             #[expect(clippy::cast_possible_truncation, reason = "`as` saturates")]
             let (first, last) = (low.floor() as i32, high.floor() as i32);
             for bin in first..=last {
                 let from = low.max(f64::from(bin));
                 let to = high.min(f64::from(bin) + 1.0);
                 let share = ((to - from) / (high - low)).max(0.0);
-                *self.bins.entry(bin).or_insert(0.0) += power * share * length;
+                if bin != under_way.0 {
+                    self.add_to(under_way);
+                    under_way = (bin, 0.0);
+                }
+                under_way.1 += power * share * length;
             }
+        }
+        self.add_to(under_way);
+    }
+
+    fn add_to(&mut self, (bin, power): (i32, f64)) {
+        if 0.0 < power {
+            *self.bins.entry(bin).or_insert(0.0) += power;
         }
     }
 
@@ -63,6 +78,15 @@ impl Spectrum {
             *self.bins.entry(*bin).or_insert(0.0) += power;
         }
     }
+}
+
+/// The middle between a line of a transform and the next, as a bin of lines a unit.
+fn middle(line: usize) -> f64 {
+    /// More than half as many as a strand has stations.
+    const LINES: usize = 2049;
+    static MIDDLES: LazyLock<Vec<f64>> =
+        LazyLock::new(|| (0..LINES).map(|k| BINS * (k as f64 + 0.5).log2()).collect());
+    MIDDLES.get(line).copied().unwrap_or_else(|| BINS * (line as f64 + 0.5).log2())
 }
 
 impl Stations {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use tress_geometry::SuperHelix;
 
 use crate::spectrum::frizz;
-use crate::winding::{Spectra, Stations};
+use crate::winding::{FLAT, Spectra, Stations};
 use crate::{FLATTEST, Winding, switchbacks};
 
 /// Which way a strand winds, root to tip.
@@ -41,6 +41,9 @@ pub struct StrandMeasures {
     /// Mean over the turns of the circularity without its sign: near 1 for coils, near 0 for planar
     /// waves, 0 for straight hair.
     pub circularity: f64,
+    /// Mean over the turns of the roundness, see [`Winding::roundness`]: near 0 for planar waves;
+    /// near 1 for coils, also for those that skip periods or are cut short.
+    pub roundness: f64,
     /// Which way it winds.
     pub hand: Hand,
     /// Turns to the right less turns to the left, over all turns: -1 (all left) to 1 (all right);
@@ -93,6 +96,7 @@ impl StrandMeasures {
             pitch: None,
             frequency: None,
             circularity: 0.0,
+            roundness: 0.0,
             hand: Hand::Neither,
             hand_balance: 0.0,
             switchbacks: 0,
@@ -103,12 +107,7 @@ impl StrandMeasures {
     /// Of one that does; `power` is that of its tangent at whole cycles.
     pub(crate) fn of(stations: &Stations, winding: &Winding, power: &[f64]) -> Self {
         let turns = winding.turns();
-        let weighted = |value: fn(f64) -> f64| -> f64 {
-            let pairs = winding.rate.iter().zip(&winding.circularity);
-            pairs.map(|(rate, c)| rate * value(*c)).sum()
-        };
-        let all = weighted(|_| 1.0);
-        let hand_balance = weighted(|c| c) / all;
+        let hand_balance = winding.mean(|k| winding.circularity[k]);
         let hand = match hand_balance {
             balance if LEAST_BALANCE <= balance => Hand::Right,
             balance if balance <= -LEAST_BALANCE => Hand::Left,
@@ -126,7 +125,8 @@ impl StrandMeasures {
             coil_radius: median_by_turns(winding, |k| winding.radius[k]),
             pitch: median_by_turns(winding, pitch),
             frequency: median_by_turns(winding, frequency),
-            circularity: weighted(f64::abs) / all,
+            circularity: winding.mean(|k| winding.circularity[k].abs()),
+            roundness: winding.mean(|k| winding.roundness[k]),
             hand,
             hand_balance,
             switchbacks: switchbacks(winding, 0).len(),
@@ -141,16 +141,19 @@ impl StrandMeasures {
         if self.length == 0.0 { 1.0 } else { self.length / self.reach }
     }
 
-    /// Whether it winds more like a wave in a plane than like a coil.
+    /// Whether it winds like a wave in a plane rather than like a coil.
     #[must_use]
     pub fn is_wave(&self) -> bool {
-        self.coil_radius.is_some() && self.circularity < 0.5
+        self.coil_radius.is_some() && self.roundness < FLAT
     }
 }
 
+/// Of so many stations a median takes one: values hardly change between them.
+const THINNED: usize = 4;
+
 /// The value that half of the turning is done at or below; `None` where nothing winds.
 fn median_by_turns(winding: &Winding, value: impl Fn(usize) -> f64) -> Option<f64> {
-    let turning = (0..winding.rate.len()).filter(|&k| 0.0 < winding.rate[k]);
+    let turning = (0..winding.rate.len()).step_by(THINNED).filter(|&k| 0.0 < winding.rate[k]);
     let mut values: Vec<(f64, f64)> = turning.map(|k| (value(k), winding.rate[k])).collect();
     values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let half = 0.5 * values.iter().map(|&(_, rate)| rate).sum::<f64>();

@@ -23,7 +23,7 @@ pub struct GroomSummary {
     pub curl_index: Option<Quantiles>,
     /// Turns from root to tip.
     pub turns: Option<Quantiles>,
-    /// Turns a unit of arc length, of the strands that turn at least once, as are all below.
+    /// Turns a unit of arc length, of the strands that coil or wave, as are all below.
     pub turns_per_length: Option<Quantiles>,
     /// Coil radius in the groom's unit.
     pub coil_radius: Option<Quantiles>,
@@ -31,11 +31,13 @@ pub struct GroomSummary {
     pub pitch: Option<Quantiles>,
     /// Turns a unit of centerline.
     pub frequency: Option<Quantiles>,
-    /// Near 1 for coils, near 0 for planar waves.
+    /// Near 1 for coils that wind one way, near 0 for planar waves.
     pub circularity: Option<Quantiles>,
+    /// Near 1 for coils, near 0 for planar waves, whichever way they wind.
+    pub roundness: Option<Quantiles>,
     /// Share of the direction's variance finer than the coil.
     pub frizz: Option<Quantiles>,
-    /// Strands that turn at least once.
+    /// Strands that coil or wave.
     pub coiled: usize,
     /// Among them those that wave in a plane rather than coil.
     pub waves: usize,
@@ -69,6 +71,7 @@ impl GroomSummary {
             pitch: over(&coiled, |m| m.pitch),
             frequency: over(&coiled, |m| m.frequency),
             circularity: over(&coiled, |m| Some(m.circularity)),
+            roundness: over(&coiled, |m| Some(m.roundness)),
             frizz: over(&coiled, |m| Some(m.frizz)),
             coiled: coiled.len(),
             waves: coiled.iter().filter(|m| m.is_wave()).count(),

@@ -15,6 +15,9 @@
 //! - the circularity is `S / (E sin(W h))`: 1 for a right-handed coil, -1 for a left-handed one, 0
 //!   for a planar wave (of an ellipse with half axes `a`, `b` it is `2 a b / (a^2 + b^2)`).
 //!
+//! A coil that is cut short at many places, or that changes hand within the turn, has a low
+//! circularity as a wave does, but is not flat: its spread `<d d^T>` says so (roundness).
+//!
 //! Frizz that is rough on the scale of `h` enters `E` alone, and at a quarter turn, where `C` is
 //! near 0, it does not move `W`.
 //!
@@ -62,6 +65,9 @@ pub struct Winding {
     pub radius: Vec<f64>,
     /// 1 for a right-handed coil, -1 for a left-handed one, near 0 for a planar wave.
     pub circularity: Vec<f64>,
+    /// How round the coil is seen along its centerline, whichever way it winds: `2 a b / (a^2 +
+    /// b^2)` of the ellipse with its spread, 1 for a coil, near 0 for a planar wave.
+    pub roundness: Vec<f64>,
     /// Length of centerline a unit of arc length, 0 to 1.
     pub advance: Vec<f64>,
     /// The centerline.
@@ -76,9 +82,26 @@ const LEAST_BENDING: f64 = 1.0;
 /// A strand that goes round hardly once cannot be told from a bow.
 const LEAST_TURNS: f64 = 1.2;
 
+/// A wave in a plane of fewer turns is a bow with ends that curl.
+const LEAST_WAVE_TURNS: f64 = 2.0;
+
+/// With fewer turns than this a strand must lean from its centerline by [`PLAIN_SLOPE`] in the
+/// mean, or the sag and the bends of straight hair would pass for waves.
+const PLAIN_TURNS: f64 = 3.0;
+
+/// The sine of 20 degrees.
+const PLAIN_SLOPE: f64 = 0.35;
+
+/// With any number of turns it must lean by this, the sine of 9 degrees: unevenness of straight
+/// hair makes many small turns.
+const SLIGHT_SLOPE: f64 = 0.15;
+
 /// The tangent leans from the centerline by at least this (a sine), or the strand does not wind
 /// there: about five degrees.
 const LEAST_SLOPE: f64 = 0.08;
+
+/// Rounder than this, a strand that winds is no wave in a plane: half axes are as 1 to 0.27.
+pub(crate) const FLAT: f64 = 0.5;
 
 /// Below this share of the greatest radius, a strand is straight among its own coils.
 const LEAST_RADIUS: f64 = 0.15;
@@ -102,9 +125,36 @@ impl Winding {
         if stations.bending < LEAST_BENDING {
             return None;
         }
-        let start = spectra.dominant_period(&stations.positions, stations.bending)?;
-        let winding = Self::refined(&stations.positions, stations.spacing, start);
-        (LEAST_TURNS <= winding.turns()).then_some(winding)
+        let starts = spectra.dominant_periods(&stations.positions, stations.bending);
+        let refined = |start| Self::refined(&stations.positions, stations.spacing, start);
+        let windings = starts.into_iter().flatten().map(refined).filter(Self::is_plain);
+        windings.reduce(|a, b| if a.bending() < b.bending() { b } else { a })
+    }
+
+    /// Whether there are turns enough, and steep enough, to tell it from a bow.
+    fn is_plain(&self) -> bool {
+        let turns = self.turns();
+        let least_slope = if turns < PLAIN_TURNS { PLAIN_SLOPE } else { SLIGHT_SLOPE };
+        let bow = turns < LEAST_TURNS
+            || self.mean(|k| self.radius[k] * self.rate[k]) < least_slope
+            || (turns < LEAST_WAVE_TURNS && self.mean(|k| self.roundness[k]) < FLAT);
+        !bow
+    }
+
+    /// Radians by which the winding bends the strand: curvature of its coils times length.
+    fn bending(&self) -> f64 {
+        let curvature = |k: usize| self.radius[k] * self.rate[k] * self.rate[k];
+        (0..self.rate.len()).map(curvature).sum::<f64>() * self.spacing
+    }
+
+    /// The mean of a value of the stations over the turns; 0 where nothing turns.
+    pub(crate) fn mean(&self, value: impl Fn(usize) -> f64) -> f64 {
+        let (mut sum, mut turns) = (0.0, 0.0);
+        for (k, rate) in self.rate.iter().enumerate() {
+            sum += rate * value(k);
+            turns += rate;
+        }
+        if 0.0 < turns { sum / turns } else { 0.0 }
     }
 
     /// Turns from root to tip, whichever way.
@@ -147,6 +197,7 @@ impl Winding {
             spacing,
             rate: moments.rate[range.clone()].iter().map(|w| w / spacing).collect(),
             circularity: moments.circularity[range.clone()].to_vec(),
+            roundness: axis.roundness(),
             advance: axis.speed[range.clone()].iter().map(|v| (v / spacing).min(1.0)).collect(),
             center: axis.center[range.clone()].iter().map(|c| root + *c).collect(),
             direction: axis.direction[range].to_vec(),
@@ -158,6 +209,7 @@ impl Winding {
                 winding.rate[i] = 0.0;
                 winding.radius[i] = 0.0;
                 winding.circularity[i] = 0.0;
+                winding.roundness[i] = 0.0;
             }
         }
         winding
@@ -189,10 +241,10 @@ impl Moments {
         let mut moments = Self { rate: vec![], energy: vec![], circularity: vec![] };
         for (k, mean) in means.into_iter().enumerate() {
             let (energy, along, swept) = (mean.x, mean.y, mean.z);
-            let angle = if 0.0 < energy { (along / energy).clamp(-1.0, 1.0).acos() } else { 0.0 };
+            let cosine = if 0.0 < energy { (along / energy).clamp(-1.0, 1.0) } else { 1.0 };
             let lag = 2.0 * half_lag(k) as f64;
-            let sine = energy * angle.sin();
-            moments.rate.push(if 0.0 < lag { angle / lag } else { 0.0 });
+            let sine = energy * (1.0 - cosine * cosine).sqrt();
+            moments.rate.push(if 0.0 < lag { cosine.acos() / lag } else { 0.0 });
             moments.energy.push(energy);
             moments.circularity.push(if 0.0 < sine {
                 (swept / sine).clamp(-1.0, 1.0)

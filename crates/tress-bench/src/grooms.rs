@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use tress::geometry::Groom;
-use tress::io::Model;
+use tress::io::{Model, WriteOptions};
 use tress_fixtures::{PatchOptions, coily_patch};
 
 use crate::Outcome;
@@ -31,6 +31,18 @@ pub(crate) fn groom(name: &str, strands: usize, points: usize) -> Outcome<Groom>
             Ok(generated(strands, points))
         }
     }
+}
+
+/// A file of a head, 10,000 strands of 160 points: the real one, or one made in `folder`; says
+/// which.
+pub(crate) fn head(folder: &Path) -> Outcome<PathBuf> {
+    if let Some(path) = real("blender/bl_coily_10k.usdc") {
+        return Ok(path);
+    }
+    say("# bl_coily_10k.usdc is not there: measured on 10,000 generated strands");
+    let path = folder.join("head.hair");
+    tress::io::write(&path, &generated(10_000, 160), &WriteOptions::default())?;
+    Ok(path)
 }
 
 /// Reads polylines.

@@ -1,8 +1,10 @@
 //! The pictures of README and docs/, each made by the layers that the program is made of.
 
+mod analysis;
 mod blending;
 mod droop;
 mod growing;
+mod operators;
 mod posing;
 mod ruffling;
 mod switchback;
@@ -32,6 +34,8 @@ const MAKERS: &[(&str, Maker)] = &[
     ("droop", droop::make),
     ("switchback", switchback::make),
     ("growing", growing::make),
+    ("operators", operators::make),
+    ("analysis", analysis::make),
 ];
 
 /// Makes again those whose name begins with one of the arguments, or all.

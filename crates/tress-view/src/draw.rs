@@ -68,94 +68,121 @@ fn sky_directions() -> Vec<(Vec3, f32)> {
     directions
 }
 
-/// The picture of flattened strands.
-pub(crate) fn draw(
-    strands: &Strands<Vertex>,
-    paint: &impl Paint,
+/// `N` pictures of flattened strands, each by a paint of its own: the strands differ by the values
+/// of their vertices alone, so that coverage and shadows are worked out once for all pictures.
+pub(crate) fn draw<const N: usize, P: Paint>(
+    strands: &[Strands<Vertex>],
+    paints: &[P],
     stage: &Stage,
     size: Size,
-) -> RgbImage {
-    let vertices = strands.points();
+) -> Vec<RgbImage> {
+    let Some(first) = strands.first() else { return vec![] };
     let (lit, tiles) = rayon::join(
-        || light(vertices, paint, stage, &Shadows::new(strands, stage)),
-        || Tiles::new(strands, size),
+        || light::<N, P>(strands, paints, stage, &Shadows::new(first, stage)),
+        || Tiles::new(first, size),
     );
-    let painter = Painter { vertices, lit, background: stage.background };
+    let painter = Painter { vertices: first.points(), lit };
     let encoder = Encoder::new();
-    let width = size.width as usize;
-    let mut bytes = vec![0_u8; 3 * width * size.height as usize];
-    let band = 3 * width * EDGE as usize;
-    let bands: Vec<(usize, &mut [u8])> = bytes.chunks_mut(band).enumerate().collect();
-    bands.into_par_iter().for_each(|(row, band)| {
-        let squares: Vec<Square> = (0..tiles.across)
+    let (width, height) = (size.width as usize, size.height as usize);
+    let edge = EDGE as usize;
+    let band = |row: usize| -> [Vec<u8>; N] {
+        let squares: Vec<Square<N>> = (0..tiles.across)
             .into_par_iter()
             .map(|column| painter.square(&tiles, row * tiles.across + column))
             .collect();
-        for (y, line) in band.chunks_exact_mut(3 * width).enumerate() {
-            let pixels = squares.iter().flat_map(|square| square.row(y));
-            for (bytes, light) in line.chunks_exact_mut(3).zip(pixels) {
-                bytes.copy_from_slice(&encoder.encode(light));
+        let lines = edge.min(height - row * edge);
+        std::array::from_fn(|n| {
+            let mut bytes = Vec::with_capacity(3 * width * lines);
+            for y in 0..lines {
+                let pixels = squares.iter().flat_map(|square| square.row(y, n, stage.background));
+                bytes.extend(pixels.take(width).flat_map(|light| encoder.encode(light)));
             }
-        }
-    });
-    RgbImage::from_raw(size.width, size.height, bytes).unwrap_or_default()
+            bytes
+        })
+    };
+    let bands: Vec<[Vec<u8>; N]> = (0..height.div_ceil(edge)).into_par_iter().map(band).collect();
+    let whole = |n: usize| {
+        let bytes = bands.iter().flat_map(|band| band[n].iter().copied()).collect();
+        RgbImage::from_raw(size.width, size.height, bytes).unwrap_or_default()
+    };
+    (0..N).map(whole).collect()
 }
 
-/// The light that each vertex sends to the viewer.
-fn light(vertices: &[Vertex], paint: &impl Paint, stage: &Stage, shadows: &Shadows) -> Vec<Vec3> {
+/// The light that each vertex sends to the viewer, in each of the pictures.
+fn light<const N: usize, P: Paint>(
+    strands: &[Strands<Vertex>],
+    paints: &[P],
+    stage: &Stage,
+    shadows: &Shadows,
+) -> Vec<[Vec3; N]> {
+    let Some(first) = strands.first().map(Strands::points) else { return vec![] };
     let shade = |i: usize| {
-        let Vertex { position, value, .. } = vertices[i];
-        let (color, tilt) = paint.fibre(value);
-        let fibre = Fibre { tangent: tangent(vertices, i), color, tilt };
-        let mut light = color * stage.sky * shadows.sky.at(position);
+        let (position, tangent) = (first[i].position, tangent(first, i));
+        let sky = stage.sky * shadows.sky.at(position);
         let depths = shadows.depths.at(position).to_array();
-        for (source, tau) in stage.lights.iter().zip(depths) {
-            light += scatter(&stage.material, &fibre, source, tau);
-        }
-        light
+        std::array::from_fn(|n| {
+            let picture = paints.get(n).zip(strands.get(n));
+            let (color, tilt) = picture.map_or((Vec3::ZERO, 0.0), |(paint, strands)| {
+                paint.fibre(strands.points()[i].value)
+            });
+            let fibre = Fibre { tangent, color, tilt };
+            let mut light = color * sky;
+            for (source, tau) in stage.lights.iter().zip(depths) {
+                light += scatter(&stage.material, &fibre, source, tau);
+            }
+            light
+        })
     };
-    (0..vertices.len()).into_par_iter().with_min_len(1 << 12).map(shade).collect()
+    (0..first.len()).into_par_iter().with_min_len(1 << 12).map(shade).collect()
 }
 
 /// The accumulators of one square.
-struct Square {
-    /// Colour so far, and the share left free.
-    pixels: Vec<(Vec3, f32)>,
-    background: Vec3,
+struct Square<const N: usize> {
+    pixels: Vec<Accumulator<N>>,
 }
 
-impl Square {
-    fn row(&self, y: usize) -> impl Iterator<Item = Vec3> {
+/// A pixel under way: its colour so far in each picture, and the share left free.
+#[derive(Clone, Copy)]
+struct Accumulator<const N: usize> {
+    colors: [Vec3; N],
+    free: f32,
+}
+
+impl<const N: usize> Square<N> {
+    /// A row of one of the pictures.
+    fn row(&self, y: usize, n: usize, background: Vec3) -> impl Iterator<Item = Vec3> {
         let edge = EDGE as usize;
         let row = &self.pixels[y * edge..(y + 1) * edge];
-        row.iter().map(|(color, free)| color + self.background * *free)
+        row.iter().map(move |pixel| pixel.colors[n] + background * pixel.free)
     }
 }
 
-struct Painter<'a> {
+struct Painter<'a, const N: usize> {
     vertices: &'a [Vertex],
     /// The light that each vertex sends to the viewer.
-    lit: Vec<Vec3>,
-    background: Vec3,
+    lit: Vec<[Vec3; N]>,
 }
 
-impl Painter<'_> {
-    fn square(&self, tiles: &Tiles, tile: usize) -> Square {
+impl<const N: usize> Painter<'_, N> {
+    fn square(&self, tiles: &Tiles, tile: usize) -> Square<N> {
         let edge = EDGE.cast_signed();
         let [left, top] = tiles.corner(tile);
-        let mut pixels = vec![(Vec3::ZERO, 1.0_f32); (EDGE * EDGE) as usize];
+        let nothing = Accumulator { colors: [Vec3::ZERO; N], free: 1.0 };
+        let mut pixels = vec![nothing; (EDGE * EDGE) as usize];
         let mut open = pixels.len();
         for (piece, [a, b]) in self.by_depth(tiles.pieces(tile)) {
             piece.cover(left..left + edge, top..top + edge, |fragment: Fragment| {
                 let (x, y) = (fragment.x - left, fragment.y - top);
-                let (color, free) = &mut pixels[index(y * edge + x)];
-                if *free < FULL {
+                let pixel = &mut pixels[index(y * edge + x)];
+                if pixel.free < FULL {
                     return;
                 }
-                let here = (a + (b - a) * fragment.along) * round(&fragment);
-                *color += here * (*free * fragment.coverage);
-                *free *= 1.0 - fragment.coverage;
-                if *free < FULL {
+                let seen = round(&fragment) * (pixel.free * fragment.coverage);
+                for (color, (a, b)) in pixel.colors.iter_mut().zip(a.iter().zip(&b)) {
+                    *color += (*a + (*b - *a) * fragment.along) * seen;
+                }
+                pixel.free *= 1.0 - fragment.coverage;
+                if pixel.free < FULL {
                     open -= 1;
                 }
             });
@@ -163,7 +190,7 @@ impl Painter<'_> {
                 break;
             }
         }
-        Square { pixels, background: self.background }
+        Square { pixels }
     }
 
     /// The pieces behind these vertices with the light of their ends, the nearest piece first;
@@ -171,7 +198,7 @@ impl Painter<'_> {
     fn by_depth(
         &self,
         first: impl Iterator<Item = u32>,
-    ) -> impl Iterator<Item = (Piece, [Vec3; 2])> {
+    ) -> impl Iterator<Item = (Piece, [[Vec3; N]; 2])> {
         // Read in the order of the strands and sorted by number, because to read all over the
         // groom in the order of depth would miss the cache at every piece.
         let mut pieces = Vec::new();

@@ -9,6 +9,7 @@
 //! | item | what it is |
 //! |---|---|
 //! | [`render`] | a groom to a picture, seen whole; [`render_within`] for pictures to be compared |
+//! | [`render_each`] | several pictures of a groom, by several numbers |
 //! | [`RenderOptions`], [`Coloring`] | view, size, hair; natural, or by numbers |
 //! | [`Scale`], [`ColorMap`] | numbers to colours, and the ticks of the legend |
 //! | [`Camera`], [`render_seen_by`] | where a point is seen; pictures by a camera of one's own |
@@ -89,7 +90,9 @@ pub use color::{HairColor, Rgb};
 pub use image::RgbImage;
 pub use page::Page;
 pub use png::png;
-pub use render::{Coloring, RenderError, RenderOptions, render, render_seen_by, render_within};
+pub use render::{
+    Coloring, RenderError, RenderOptions, render, render_each, render_seen_by, render_within,
+};
 pub use scale::{ColorMap, Scale, Tick};
 pub use sheet::{Panel, SheetError, sheet};
 pub use width::{StrandWidth, sensible_width};

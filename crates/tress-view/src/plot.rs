@@ -144,6 +144,14 @@ impl Layer {
         self
     }
 
+    /// What the legend calls it; empty for nothing.
+    fn name(&self) -> &str {
+        match self {
+            Self::Density(_) => "",
+            Self::Line { name, .. } | Self::Band { name, .. } | Self::Bars { name, .. } => name,
+        }
+    }
+
     /// Places that the range of the plot must hold.
     fn extent(&self) -> Vec<[f64; 2]> {
         match self {

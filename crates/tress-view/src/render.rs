@@ -169,6 +169,50 @@ pub fn render_within(
     render_around(groom, bounds.corners(), coloring, options)
 }
 
+/// Draws a groom once for each of several colourings, all seen as by [`render`].
+///
+/// Pictures coloured by values share the work that does not depend on colours: three of them take
+/// half as long again as one.
+///
+/// ```
+/// use glam::DVec3;
+/// use tress_geometry::{Groom, Strands};
+/// use tress_view::{Coloring, RenderOptions, Scale, Size, render, render_each};
+///
+/// let strand = |i: u32| [0.0, 1.0].map(|y| DVec3::new(f64::from(i), 9.0 * y, 0.0));
+/// let groom = Groom::new(Strands::from_counts([2; 9], (0..9).flat_map(strand).collect())?);
+/// let scale = Scale::spanning([0.0, 8.0]);
+/// let (up, down) = ([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], [4.0; 9]);
+/// let colorings = [Coloring::Strands(&up, &scale), Coloring::Strands(&down, &scale)];
+/// let options = RenderOptions { size: Size::new(120, 120), ..RenderOptions::default() };
+/// let both = render_each(&groom, &colorings, &options)?;
+/// assert_eq!(both[1], render(&groom, &colorings[1], &options)?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// As [`render`].
+pub fn render_each(
+    groom: &Groom,
+    colorings: &[Coloring<'_>],
+    options: &RenderOptions,
+) -> Result<Vec<RgbImage>, RenderError> {
+    let Size { width, height } = check_size(options.size)?;
+    let points = || groom.strands().points().iter().copied();
+    let up = groom.up.unwrap_or(UpAxis::Y);
+    let mut images = Vec::with_capacity(colorings.len());
+    for alike in colorings.chunk_by(|a, b| a.scale().is_some() == b.scale().is_some()) {
+        let legend = alike.first().and_then(Coloring::scale).map_or(0, |_| legend_height(options));
+        let seen = Size::new(width, height - legend);
+        let camera = Camera::fit(points(), up, options.view, seen, options.margin);
+        let pictures = seen_by(&camera, groom, alike, options)?;
+        let pairs = pictures.into_iter().zip(alike);
+        images.extend(pairs.map(|(picture, coloring)| with_legend(picture, coloring, options)));
+    }
+    Ok(images)
+}
+
 /// The picture by a camera that sees all `points`, with its legend.
 fn render_around(
     groom: &Groom,
@@ -177,25 +221,31 @@ fn render_around(
     options: &RenderOptions,
 ) -> Result<RgbImage, RenderError> {
     let Size { width, height } = check_size(options.size)?;
-    let legend_height = match coloring {
-        Coloring::Natural => 0,
-        Coloring::Strands(..) | Coloring::Points(..) => legend::height(options.size),
-    };
-    let seen = Size::new(width, height - legend_height);
+    let legend = coloring.scale().map_or(0, |_| legend_height(options));
     let up = groom.up.unwrap_or(UpAxis::Y);
+    let seen = Size::new(width, height - legend);
     let camera = Camera::fit(points, up, options.view, seen, options.margin);
-    let picture = render_seen_by(&camera, groom, coloring, options)?;
+    Ok(with_legend(render_seen_by(&camera, groom, coloring, options)?, coloring, options))
+}
+
+/// Pixels that the legend takes of a picture coloured by values.
+fn legend_height(options: &RenderOptions) -> u32 {
+    legend::height(options.size)
+}
+
+/// A picture with the legend of its colours below it, if they mean anything.
+fn with_legend(picture: RgbImage, coloring: &Coloring<'_>, options: &RenderOptions) -> RgbImage {
     let (Coloring::Strands(values, scale) | Coloring::Points(values, scale)) = coloring else {
-        return Ok(picture);
+        return picture;
     };
-    let paper = options.value_background;
-    let mut whole = RgbImage::from_pixel(width, height, Pixel(paper));
+    let (size, paper) = (options.size, options.value_background);
+    let mut whole = RgbImage::from_pixel(size.width, size.height, Pixel(paper));
     imageops::replace(&mut whole, &picture, 0, 0);
-    if 0 < legend_height {
-        let strip = legend(scale, missing(coloring, values).as_deref(), options.size, paper);
-        imageops::replace(&mut whole, &strip, 0, i64::from(seen.height));
+    if 0 < legend::height(size) {
+        let strip = legend(scale, missing(coloring, values).as_deref(), size, paper);
+        imageops::replace(&mut whole, &strip, 0, i64::from(picture.height()));
     }
-    Ok(whole)
+    whole
 }
 
 /// Draws a groom as a camera sees it, without a legend; the options' view, size and margin are the
@@ -210,36 +260,66 @@ pub fn render_seen_by(
     coloring: &Coloring<'_>,
     options: &RenderOptions,
 ) -> Result<RgbImage, RenderError> {
+    let images = seen_by(camera, groom, std::slice::from_ref(coloring), options)?;
+    Ok(images.into_iter().next().unwrap_or_default())
+}
+
+/// One picture a colouring: those by values three at a time, of which more would leave the cache.
+fn seen_by(
+    camera: &Camera,
+    groom: &Groom,
+    colorings: &[Coloring<'_>],
+    options: &RenderOptions,
+) -> Result<Vec<RgbImage>, RenderError> {
     check_size(camera.size())?;
     let radii = radii(groom, options.width, camera);
-    match coloring {
-        Coloring::Natural => {
-            let values = each_point(groom, |i| chance(i as u64));
-            let flat = flatten(groom.strands(), &Dress { radii, values }, camera)?;
-            let paint = Natural(options.hair.linear());
-            Ok(draw(&flat, &paint, &Stage::natural(decode(options.background)), camera.size()))
+    let flat = |coloring: &Coloring<'_>| {
+        let dress = Dress { radii: radii.clone(), values: coloring.places(groom)? };
+        Ok(flatten(groom.strands(), &dress, camera)?)
+    };
+    let mut images = Vec::with_capacity(colorings.len());
+    for alike in colorings.chunk_by(|a, b| a.scale().is_some() == b.scale().is_some()) {
+        for part in alike.chunks(3) {
+            let flats: Vec<_> = part.iter().map(flat).collect::<Result<_, RenderError>>()?;
+            let maps: Vec<_> = part.iter().filter_map(Coloring::scale).map(Mapped::new).collect();
+            let stage = Stage::plain(decode(options.value_background));
+            images.extend(match maps.len() {
+                0 => {
+                    let paint = Natural(options.hair.linear());
+                    let stage = Stage::natural(decode(options.background));
+                    let draw = |flat| draw::<1, _>(&[flat], &[paint], &stage, camera.size());
+                    flats.into_iter().flat_map(draw).collect()
+                }
+                1 => draw::<1, _>(&flats, &maps, &stage, camera.size()),
+                2 => draw::<2, _>(&flats, &maps, &stage, camera.size()),
+                _ => draw::<3, _>(&flats, &maps, &stage, camera.size()),
+            });
         }
-        Coloring::Strands(values, scale) => {
-            check_values(values, "strands", groom.strands().len())?;
-            let values = each_point(groom, |i| place(scale, values[i]));
-            let flat = flatten(groom.strands(), &Dress { radii, values }, camera)?;
-            Ok(draw(
-                &flat,
-                &Mapped::new(scale),
-                &Stage::plain(decode(options.value_background)),
-                camera.size(),
-            ))
+    }
+    Ok(images)
+}
+
+impl<'a> Coloring<'a> {
+    /// What shows the values, if there are any.
+    fn scale(&self) -> Option<&'a Scale> {
+        match self {
+            Self::Natural => None,
+            Self::Strands(_, scale) | Self::Points(_, scale) => Some(scale),
         }
-        Coloring::Points(values, scale) => {
-            check_values(values, "points", groom.strands().points().len())?;
-            let values = values.iter().map(|&value| place(scale, value)).collect();
-            let flat = flatten(groom.strands(), &Dress { radii, values }, camera)?;
-            Ok(draw(
-                &flat,
-                &Mapped::new(scale),
-                &Stage::plain(decode(options.value_background)),
-                camera.size(),
-            ))
+    }
+
+    /// What the hair is coloured by at each point: for natural hair a number of each strand's own.
+    fn places(&self, groom: &Groom) -> Result<Vec<f32>, RenderError> {
+        match self {
+            Self::Natural => Ok(each_point(groom, |i| chance(i as u64))),
+            Self::Strands(values, scale) => {
+                check_values(values, "strands", groom.strands().len())?;
+                Ok(each_point(groom, |i| place(scale, values[i])))
+            }
+            Self::Points(values, scale) => {
+                check_values(values, "points", groom.strands().points().len())?;
+                Ok(values.iter().map(|&value| place(scale, value)).collect())
+            }
         }
     }
 }
@@ -278,6 +358,7 @@ fn missing(coloring: &Coloring<'_>, values: &[f64]) -> Option<String> {
 }
 
 /// Hair of one colour, each strand a little lighter or darker, as hair grows.
+#[derive(Clone, Copy)]
 struct Natural(Vec3);
 
 impl Paint for Natural {

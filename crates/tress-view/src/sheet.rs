@@ -39,7 +39,8 @@ pub enum SheetError {
 
 /// Lays pictures out in rows of `columns` on paper of one colour, with captions below them.
 ///
-/// Every picture has the room of the largest, and stands in its middle.
+/// Columns are as wide as the widest picture, rows as high as their highest, and pictures stand in
+/// the middle. A row without a caption leaves no room for one.
 ///
 /// ```
 /// use image::RgbImage;
@@ -63,14 +64,13 @@ pub fn sheet(panels: &[Panel<'_>], columns: usize, paper: Rgb) -> Result<RgbImag
         return Err(SheetError::Empty);
     }
     let columns = columns.min(panels.len());
-    let rows = panels.len().div_ceil(columns) as u64;
     let widest = panels.iter().map(|p| p.image.width()).max().unwrap_or(0);
     let highest = panels.iter().map(|p| p.image.height()).max().unwrap_or(0);
     let line = (widest.min(highest) as f32 / 28.0).clamp(12.0, 48.0).round();
     let gap = index(floor(0.6 * line)) as u64;
-    let caption = index(floor(1.9 * line)) as u64;
-    let (cell_width, cell_height) = (u64::from(widest) + gap, u64::from(highest) + caption + gap);
-    let (width, height) = (columns as u64 * cell_width + gap, rows * cell_height + gap);
+    let rows: Vec<Row<'_>> = panels.chunks(columns).map(|panels| Row::new(panels, line)).collect();
+    let height = rows.iter().map(|row| row.height + row.caption + gap).sum::<u64>() + gap;
+    let width = columns as u64 * (u64::from(widest) + gap) + gap;
     let too_large = SheetError::TooLarge { width, height };
     if 1 << 28 < width.saturating_mul(height) {
         return Err(too_large);
@@ -78,19 +78,41 @@ pub fn sheet(panels: &[Panel<'_>], columns: usize, paper: Rgb) -> Result<RgbImag
     let pixels = |n: u64| u32::try_from(n).map_err(|_| too_large);
     let mut sheet = RgbImage::from_pixel(pixels(width)?, pixels(height)?, Pixel(paper));
     let letters = Type::new(line);
-    for (i, panel) in panels.iter().enumerate() {
-        let x = gap + (i % columns) as u64 * cell_width;
-        let y = gap + (i / columns) as u64 * cell_height;
-        let inset = |room: u32, taken: u32| u64::from((room - taken) / 2);
-        let left = x + inset(widest, panel.image.width());
-        let top = y + inset(highest, panel.image.height());
-        imageops::replace(&mut sheet, panel.image, left.cast_signed(), top.cast_signed());
-        let words = letters.fitted(panel.caption, widest as f32);
-        let left = x as f32 + 0.5 * (widest as f32 - letters.width(&words));
-        let top = (y + u64::from(highest)) as f32 + 0.35 * line;
-        letters.draw(&mut sheet, left.round(), top.round(), &words, ink(paper));
+    let mut top = gap;
+    for row in rows {
+        let mut x = gap;
+        for panel in row.panels {
+            let left = x + u64::from((widest - panel.image.width()) / 2);
+            let inset = (row.height - u64::from(panel.image.height())) / 2;
+            let place = [left, top + inset].map(u64::cast_signed);
+            imageops::replace(&mut sheet, panel.image, place[0], place[1]);
+            let words = letters.fitted(panel.caption, widest as f32);
+            let left = x as f32 + 0.5 * (widest as f32 - letters.width(&words));
+            let below = (top + row.height) as f32 + 0.35 * line;
+            letters.draw(&mut sheet, left.round(), below.round(), &words, ink(paper));
+            x += u64::from(widest) + gap;
+        }
+        top += row.height + row.caption + gap;
     }
     Ok(sheet)
+}
+
+/// Pictures side by side.
+struct Row<'a> {
+    panels: &'a [Panel<'a>],
+    /// Pixels that the highest picture takes.
+    height: u64,
+    /// Pixels that captions take; none where no picture has one.
+    caption: u64,
+}
+
+impl<'a> Row<'a> {
+    fn new(panels: &'a [Panel<'a>], line: f32) -> Self {
+        let height = panels.iter().map(|p| p.image.height()).max().unwrap_or(0);
+        let captioned = panels.iter().any(|panel| !panel.caption.is_empty());
+        let caption = if captioned { index(floor(1.9 * line)) as u64 } else { 0 };
+        Self { panels, height: u64::from(height), caption }
+    }
 }
 
 #[cfg(test)]
@@ -107,7 +129,21 @@ mod tests {
             let count = sheet.pixels().filter(|p| p.0 == [v; 3]).count();
             assert_eq!(count, (image.width() * image.height()) as usize);
         }
-        assert!(sheet.width() < 2 * 120 + 60 && sheet.height() < 2 * 80 + 150);
+        assert!(sheet.width() < 2 * 120 + 60 && sheet.height() < 80 + 40 + 150);
+    }
+
+    #[test]
+    fn rows_are_no_higher_than_their_pictures_and_captions_need() {
+        let paint = |h| RgbImage::from_pixel(100, h, Pixel([9; 3]));
+        let (high, low) = (paint(300), paint(50));
+        let of = |caption| {
+            let panels = [&high, &low, &low].map(|image| Panel { image, caption });
+            sheet(&panels, 1, [255; 3]).expect("a sheet").height()
+        };
+        let gaps = of("") - (300 + 50 + 50);
+        assert!(gaps < 50, "{gaps}");
+        assert_eq!((of("x") - of("")) % 3, 0);
+        assert!(of("") + 3 * 12 < of("x"));
     }
 
     #[test]
@@ -118,7 +154,7 @@ mod tests {
                 let panels = [Panel { image: &image, caption }];
                 sheet(&panels, 9, paper).expect("a sheet")
             };
-            let (blank, short) = (with(""), with("after"));
+            let (blank, short) = (with(" "), with("after"));
             assert_eq!(blank.dimensions(), with(&"long ".repeat(99)).dimensions());
             let inked = short.pixels().zip(blank.pixels()).filter(|(a, b)| a != b).count();
             assert!(50 < inked && inked < 2000, "{inked}");

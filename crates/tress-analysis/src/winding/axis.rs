@@ -96,6 +96,22 @@ impl Axis {
         }
         Self { stations, periods, center, offset, direction, speed }
     }
+
+    /// `2 a b / (a^2 + b^2)` at the strand's own stations, with `a^2` and `b^2` the eigenvalues of
+    /// the mean of `d d^T` over the turn, of which the third is 0: offsets lie across.
+    pub(super) fn roundness(&self) -> Vec<f64> {
+        let squares: Vec<DVec3> = self.offset.iter().map(|d| *d * *d).collect();
+        let products: Vec<DVec3> =
+            self.offset.iter().map(|d| DVec3::new(d.y * d.z, d.z * d.x, d.x * d.y)).collect();
+        let (squares, products) =
+            (turn_means(&squares, &self.periods), turn_means(&products, &self.periods));
+        let round = |k: usize| {
+            let (trace, square) = (squares[k].element_sum(), squares[k].length_squared());
+            let product = trace * trace - square - 2.0 * products[k].length_squared();
+            if 0.0 < trace { (2.0 * product.max(0.0)).sqrt().min(trace) / trace } else { 0.0 }
+        };
+        self.stations.clone().map(round).collect()
+    }
 }
 
 /// A strand continued by half turns about the normals at its root and its tip.

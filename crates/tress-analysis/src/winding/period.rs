@@ -6,6 +6,7 @@
 //! summed over bands of constant width in octaves, so that a coil whose turns vary along the strand
 //! is not outdone by a line of less power.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use glam::DVec3;
@@ -15,6 +16,8 @@ use realfft::num_complex::Complex;
 /// Fourier transforms, kept from strand to strand.
 pub(crate) struct Spectra {
     planner: RealFftPlanner<f64>,
+    /// Hann's windows by their lengths, of which there are few.
+    windows: BTreeMap<usize, Vec<f64>>,
     input: Vec<f64>,
     output: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
@@ -23,27 +26,47 @@ pub(crate) struct Spectra {
 
 impl Default for Spectra {
     fn default() -> Self {
-        let planner = RealFftPlanner::new();
-        Self { planner, input: vec![], output: vec![], scratch: vec![], power: vec![] }
+        Self {
+            planner: RealFftPlanner::new(),
+            windows: BTreeMap::new(),
+            input: vec![],
+            output: vec![],
+            scratch: vec![],
+            power: vec![],
+        }
     }
 }
 
 /// Half the width of a band, as a factor of its middle.
 const BAND: f64 = 1.2;
 
-/// Below so many radians of bending a cubic would take the coil with it; a line is taken off.
-const LITTLE_BENDING: f64 = 4.0 * TAU;
+/// Above so many radians of bending a coil has turns enough for a cubic to leave it alone. Below,
+/// a cubic may take the coil with it, and a line may leave a bow that outweighs the coil.
+const MUCH_BENDING: f64 = 4.0 * TAU;
+
+/// Periods nearer to each other than this factor lead to the same winding.
+const SAME: f64 = 1.25;
 
 impl Spectra {
-    /// Stations in one turn, by the strongest band; `None` where nothing is left of the strand
-    /// but its gross shape.
-    pub(super) fn dominant_period(&mut self, points: &[DVec3], bending: f64) -> Option<f64> {
+    /// Stations in one turn, by the strongest band; a second guess where what is left of the strand
+    /// without a cubic turns otherwise than without a line. None where nothing is left of it but
+    /// its gross shape.
+    pub(super) fn dominant_periods(&mut self, points: &[DVec3], bending: f64) -> [Option<f64>; 2] {
+        let by_cubic = self.dominant_period(points, 3);
+        if MUCH_BENDING <= bending {
+            return [by_cubic, None];
+        }
+        let by_line = self.dominant_period(points, 1);
+        let other = |cubic: &f64| by_line.is_none_or(|line| SAME * cubic < line);
+        [by_line, by_cubic.filter(other)]
+    }
+
+    fn dominant_period(&mut self, points: &[DVec3], degree: usize) -> Option<f64> {
         let n = points.len() - 1;
-        let degree = if bending < LITTLE_BENDING { 1 } else { 3 };
         let flat = without_trend(&points[..n], degree);
         let power = self.power(&flat);
-        let weighted: Vec<f64> =
-            power.iter().enumerate().map(|(k, p)| p * (k as f64).powf(1.5)).collect();
+        let weight = |k: usize| k as f64 * (k as f64).sqrt();
+        let weighted: Vec<f64> = power.iter().enumerate().map(|(k, p)| p * weight(k)).collect();
         let mut sums = vec![[0.0; 2]];
         for (k, p) in weighted.iter().enumerate() {
             let [sum, moment] = sums[k];
@@ -64,15 +87,15 @@ impl Spectra {
     pub(crate) fn power(&mut self, values: &[DVec3]) -> &[f64] {
         let n = values.len();
         let transform = self.planner.plan_fft_forward(n);
+        let window = self.windows.entry(n).or_insert_with(|| hann(n));
         self.input.resize(n, 0.0);
         self.output.resize(n / 2 + 1, Complex::default());
         self.scratch.resize(transform.get_scratch_len(), Complex::default());
         self.power.clear();
         self.power.resize(n / 2 + 1, 0.0);
         for axis in 0..3 {
-            for (i, (x, value)) in self.input.iter_mut().zip(values).enumerate() {
-                let hann = 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / n as f64).cos();
-                *x = hann * value[axis];
+            for ((x, value), share) in self.input.iter_mut().zip(values).zip(&*window) {
+                *x = share * value[axis];
             }
             let done = transform.process_with_scratch(
                 &mut self.input,
@@ -88,6 +111,11 @@ impl Spectra {
         }
         &self.power
     }
+}
+
+/// Hann's window of `n` values.
+fn hann(n: usize) -> Vec<f64> {
+    (0..n).map(|i| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / n as f64).cos()).collect()
 }
 
 /// The values less their projections on Legendre polynomials up to a degree (three at most).

@@ -1,11 +1,16 @@
-//! Seeing a groom: time of an analysis and of its report, and switchbacks found against switchbacks
-//! that were put in.
+//! Seeing a groom: time of an analysis and of its report; switchbacks, planar waves and wisps found
+//! against those that were put in.
 
-use tress::analysis::Analysis;
+use std::collections::BTreeMap;
+
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use tress::analysis::{Analysis, Wisps};
 use tress::geometry::glam::{DMat3, DQuat, DVec3};
-use tress::geometry::{Element, Frame, Groom, Strands, SuperHelix};
-use tress::io::WriteOptions;
+use tress::geometry::{Column, Element, Frame, Groom, Strands, SuperHelix, names};
+use tress::grow::{Coils, Density, GUIDE, grow, preset, scatter};
 use tress::switchback::{InsertOptions, insert_at};
+use tress_fixtures::{PatchOptions, coily_patch, scalp};
 
 use crate::Outcome;
 use crate::grooms;
@@ -18,25 +23,22 @@ pub(crate) const NAMES: &[&str] = &[
     "switchback_recall",
     "switchback_precision",
     "switchback_place_turns",
+    "wave_recall",
+    "wave_precision",
+    "wisps_fixture_agreement",
+    "wisps_grown_agreement",
 ];
 
 pub(crate) fn run(figures: &mut Figures) -> Outcome {
     times(figures)?;
-    detection(figures)
+    detection(figures)?;
+    wisps(figures)
 }
 
 /// A head of 1.6 million points: numbers alone, and the report with pictures and plots.
 fn times(figures: &mut Figures) -> Outcome {
     let folder = tempfile::tempdir()?;
-    let input = match grooms::real("blender/bl_coily_10k.usdc") {
-        Some(path) => path,
-        None => {
-            say("# bl_coily_10k.usdc is not there: measured on 10,000 generated strands");
-            let path = folder.path().join("head.hair");
-            tress::io::write(&path, &grooms::generated(10_000, 160), &WriteOptions::default())?;
-            path
-        }
-    };
+    let input = grooms::head(folder.path())?;
     let html = folder.path().join("report.html");
     let (input, html) = (input.to_string_lossy(), html.to_string_lossy());
     let program = process::program()?;
@@ -50,14 +52,15 @@ fn times(figures: &mut Figures) -> Outcome {
 /// What a strand of the test set is, and where its switchback lies if it has one.
 struct Case {
     points: Vec<DVec3>,
-    truth: Option<f64>,
+    switchback: Option<f64>,
+    wave: bool,
 }
 
 /// Coils of several radii and pitches, with and without a switchback, some with a period skipped;
 /// planar waves; each with several samplings and amounts of noise.
 fn cases() -> Outcome<Vec<Case>> {
     let mut cases = Vec::new();
-    let mut draw = Draw(1);
+    let mut rng = Pcg64Mcg::seed_from_u64(1);
     for radius in [0.3, 0.57, 1.0] {
         for pitch in [0.35, 0.6, 1.2] {
             for share in [0.3, 0.5, 0.65] {
@@ -70,14 +73,15 @@ fn cases() -> Outcome<Vec<Case>> {
                         let at = share * strand.length();
                         let (changed, there) = insert_at(&strand, at, &InsertOptions::default())?;
                         let spacing = turn / per_turn;
-                        let mut add = |strand: &SuperHelix<'_>, truth: Option<f64>| {
-                            let points = sampled(strand, spacing, noise * radius, &mut draw);
-                            cases.push(Case { points, truth });
+                        let mut add = |elements: &[Element], switchback, wave| {
+                            let strand = placed(elements);
+                            let points = sampled(&strand, spacing, noise * radius, &mut rng);
+                            cases.push(Case { points, switchback, wave });
                         };
-                        add(&placed(&changed), Some(there.arc_length));
-                        add(&strand, None);
-                        add(&placed(&skipped(&elements, at, turn)), None);
-                        add(&placed(&wave(radius, turn)), None);
+                        add(&changed, Some(there.arc_length), false);
+                        add(&elements, None, false);
+                        add(&skipped(&elements, at, turn), None, false);
+                        add(&wave(radius, turn), None, true);
                     }
                 }
             }
@@ -115,7 +119,7 @@ fn wave(radius: f64, turn: f64) -> Vec<Element> {
     (0..16 * 24).map(|i| Element { curvature: bend(i), length: turn / 24.0 }).collect()
 }
 
-fn sampled(strand: &SuperHelix<'_>, spacing: f64, noise: f64, draw: &mut Draw) -> Vec<DVec3> {
+fn sampled(strand: &SuperHelix<'_>, spacing: f64, noise: f64, rng: &mut Pcg64Mcg) -> Vec<DVec3> {
     let length = strand.length();
     let mut arc_lengths = Vec::new();
     let mut s = 0.0;
@@ -124,24 +128,16 @@ fn sampled(strand: &SuperHelix<'_>, spacing: f64, noise: f64, draw: &mut Draw) -
         s += spacing;
     }
     let frames = strand.frames_at(arc_lengths);
-    frames.map(|frame| frame.position + noise * draw.vector()).collect()
+    frames.map(|frame| frame.position + noise * stray(rng)).collect()
 }
 
-/// Numbers of mean 0 and variance 1 from a linear congruence (Knuth's): a test set needs no more.
-struct Draw(u64);
-
-impl Draw {
-    fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        ((self.0 >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12_f64.sqrt()
-    }
-
-    fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.number(), self.number(), self.number())
-    }
+/// Three even numbers of mean 0 and variance 1.
+fn stray(rng: &mut Pcg64Mcg) -> DVec3 {
+    let mut number = || (rng.random::<f64>() - 0.5) * 12_f64.sqrt();
+    DVec3::new(number(), number(), number())
 }
 
-/// Switchbacks found and put in are matched within a turn.
+/// Switchbacks found and put in are matched within a turn; waves are matched by strand.
 fn detection(figures: &mut Figures) -> Outcome {
     let cases = cases()?;
     let mut strands = Strands::default();
@@ -150,15 +146,20 @@ fn detection(figures: &mut Figures) -> Outcome {
     }
     let analysis = Analysis::of(&Groom::new(strands));
     let (mut right, mut found, mut there, mut off) = (0.0, 0.0, 0.0, 0.0);
+    let (mut waves_right, mut waves_found, mut waves_there) = (0.0, 0.0, 0.0);
+    let one = |is: bool| f64::from(u8::from(is));
     for (i, case) in cases.iter().enumerate() {
         let of_strand: Vec<_> = analysis.switchbacks.iter().filter(|s| s.strand == i).collect();
         found += of_strand.len() as f64;
-        there += f64::from(u8::from(case.truth.is_some()));
+        there += one(case.switchback.is_some());
         let measures = analysis.strands[i].ok_or("a strand is no curve")?;
+        waves_right += one(case.wave && measures.is_wave());
+        waves_found += one(measures.is_wave());
+        waves_there += one(case.wave);
         let turn = measures.length / measures.turns.max(1.0);
         let distance = of_strand
             .iter()
-            .filter_map(|s| Some((s.arc_length - case.truth?).abs() / turn))
+            .filter_map(|s| Some((s.arc_length - case.switchback?).abs() / turn))
             .fold(f64::INFINITY, f64::min);
         if distance < 1.0 {
             right += 1.0;
@@ -169,5 +170,48 @@ fn detection(figures: &mut Figures) -> Outcome {
     figures.add("switchback_recall", right / there, "", Bar::AtLeast(0.95));
     figures.add("switchback_precision", right / found, "", Bar::AtLeast(0.95));
     figures.add("switchback_place_turns", off / right, "turns", Bar::None);
+    figures.add("wave_recall", waves_right / waves_there, "", Bar::AtLeast(0.95));
+    figures.add("wave_precision", waves_right / waves_found, "", Bar::AtLeast(0.95));
     Ok(())
+}
+
+/// Wisps found against those that a groom was made in.
+fn wisps(figures: &mut Figures) -> Outcome {
+    let patch = coily_patch(&PatchOptions::default(), 7);
+    figures.add("wisps_fixture_agreement", agreement(&patch, names::GROUP)?, "", Bar::None);
+    let alone = PatchOptions {
+        wisps: 110,
+        strands_per_wisp: 1,
+        patch_angle: 0.5,
+        length: 9.0,
+        ..PatchOptions::default()
+    };
+    let guides = coily_patch(&alone, 2);
+    let roots = scatter(&scalp(&alone), 2000, Density::Even, 1)?;
+    let options = preset("long-coils").unwrap_or_default();
+    let grown = grow(guides.strands(), &roots, Coils::shipped()?, &options, 1)?;
+    figures.add("wisps_grown_agreement", agreement(&grown, GUIDE)?, "", Bar::None);
+    Ok(())
+}
+
+/// The adjusted Rand index (Hubert and Arabie, 1985) of the wisps found and those that an attribute
+/// tells: 1 for the same, 0 in the mean for wisps by chance.
+fn agreement(groom: &Groom, attribute: &str) -> Outcome<f64> {
+    let found = Wisps::of(groom, &Analysis::of(groom)).wisp;
+    let Some(Column::Int(known)) = groom.strand_attributes().get(attribute) else {
+        return Err(format!("the groom has no attribute {attribute}").into());
+    };
+    let (mut both, mut of_found, mut of_known) =
+        (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+    for (&a, &b) in found.iter().zip(known) {
+        *both.entry((a, b)).or_insert(0.0) += 1.0;
+        *of_found.entry(a).or_insert(0.0) += 1.0;
+        *of_known.entry(b).or_insert(0.0) += 1.0;
+    }
+    let pairs = |n: f64| 0.5 * n * (n - 1.0);
+    let together = both.into_values().map(pairs).sum::<f64>();
+    let by_found = of_found.into_values().map(pairs).sum::<f64>();
+    let by_known = of_known.into_values().map(pairs).sum::<f64>();
+    let by_chance = by_found * by_known / pairs(found.len() as f64);
+    Ok((together - by_chance) / (0.5 * (by_found + by_known) - by_chance))
 }

@@ -6,11 +6,10 @@ use std::time::Instant;
 use tress::fit::{Elements, FitOptions, Fitted, Refine, Tolerance, fit};
 use tress::geometry::glam::DVec3;
 use tress::geometry::{Attributes, Element, Frame, Groom, Strands, SuperHelix};
-use tress::io::WriteOptions;
 
 use crate::Outcome;
 use crate::grooms;
-use crate::metric::{Bar, Figures, say};
+use crate::metric::{Bar, Figures};
 use crate::process;
 
 pub(crate) const NAMES: &[&str] = &[
@@ -94,15 +93,7 @@ fn swatch(figures: &mut Figures) -> Outcome {
 /// Ten thousand strands of 160 points to 90 elements, as a whole process and in memory.
 fn head(figures: &mut Figures) -> Outcome {
     let folder = tempfile::tempdir()?;
-    let input = match grooms::real("blender/bl_coily_10k.usdc") {
-        Some(path) => path,
-        None => {
-            say("# bl_coily_10k.usdc is not there: measured on 10,000 generated strands");
-            let path = folder.path().join("head.hair");
-            tress::io::write(&path, &grooms::generated(10_000, 160), &WriteOptions::default())?;
-            path
-        }
-    };
+    let input = grooms::head(folder.path())?;
     let output = folder.path().join("head.tress");
     let (from, to) = (input.to_string_lossy(), output.to_string_lossy());
     let program = process::program()?;

@@ -55,13 +55,13 @@ pub(crate) struct AnalyzeArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
     /// What is plotted and pictured: radius, turns, length, handedness, curvature, twist,
-    /// frequency, pitch, beta
+    /// frequency, pitch, beta, beta-fourier
     #[arg(
         long,
         value_name = "QUANTITIES",
         value_delimiter = ',',
         value_parser = parse_quantity,
-        default_value = "radius,frequency,beta,curvature,twist,handedness"
+        default_value = "radius,frequency,beta,beta-fourier,curvature,twist,handedness"
     )]
     pub(crate) quantity: Vec<Quantity>,
     /// Where the camera stands

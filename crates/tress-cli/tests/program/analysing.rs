@@ -40,6 +40,17 @@ fn analyze_says_and_writes_what_a_groom_is_like() {
 }
 
 #[test]
+fn wisps_are_as_many_as_the_guides_that_hairs_were_grown_on() {
+    let bench = crate::growing::bench();
+    bench.done("grow guides.obj hair.obj --scalp scalp.obj --count 200");
+    let json: Value = serde_json::from_str(&bench.done("analyze hair.obj --json")).expect("JSON");
+    let wisps = &json["wisps"];
+    let (many, inside) = (wisps["wisps"].as_u64(), wisps["strands_in_wisps"].as_u64());
+    let (many, inside) = many.zip(inside).expect("numbers");
+    assert!((7..=10).contains(&many) && 190 <= inside, "{wisps}");
+}
+
+#[test]
 fn diff_says_how_far_two_grooms_are_apart() {
     let bench = Bench::new();
     let same: Value =

@@ -10,7 +10,7 @@ use tress_fixtures::{PatchOptions, coily_patch, scalp};
 use crate::bench::Bench;
 
 /// Eight guides, forty roots between them, a scalp.
-fn bench() -> Bench {
+pub(crate) fn bench() -> Bench {
     let bench = Bench::new();
     let options = PatchOptions { wisps: 8, strands_per_wisp: 1, ..PatchOptions::default() };
     bench.write("guides.obj", &coily_patch(&options, 2));

@@ -1,5 +1,7 @@
 //! Many lines as a density: how many pass through each cell, and their quantiles.
 
+use rayon::prelude::*;
+
 /// A line: places along, which ascend, and values there.
 #[derive(Clone, Copy, Debug)]
 pub struct Line<'a> {
@@ -35,23 +37,21 @@ impl Density {
     /// of the values, and 0 if it is near.
     #[must_use]
     pub fn of<'a>(lines: impl IntoIterator<Item = Line<'a>>, x_range: [f64; 2]) -> Self {
-        let mut columns: Vec<Vec<f64>> = vec![Vec::new(); COLUMNS];
-        let mut at_columns = Vec::new();
-        for line in lines {
-            at_columns.push(sampled(line, x_range));
-            let values = at_columns.last().into_iter().flatten();
-            for (column, value) in columns.iter_mut().zip(values) {
-                column.extend(value.is_finite().then_some(*value));
-            }
-        }
-        for column in &mut columns {
-            column.sort_unstable_by(f64::total_cmp);
-        }
+        let lines: Vec<Line<'a>> = lines.into_iter().collect();
+        let at_columns: Vec<Vec<f64>> =
+            lines.par_iter().map(|&line| sampled(line, x_range)).collect();
+        let sorted = |column: usize| {
+            let values = at_columns.iter().map(|line| line[column]);
+            let mut sorted: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+            sorted.sort_unstable_by(f64::total_cmp);
+            sorted
+        };
+        let columns: Vec<Vec<f64>> = (0..COLUMNS).into_par_iter().map(sorted).collect();
         let y_range = central_range(&columns);
         let mut counts = vec![0; COLUMNS * ROWS];
-        for line in &at_columns {
-            count(line, y_range, &mut counts);
-        }
+        counts.par_chunks_mut(ROWS).enumerate().for_each(|(column, cells)| {
+            at_columns.iter().for_each(|line| count(line, column, y_range, cells));
+        });
         Self { x_range, y_range, counts, quantiles: columns.iter().map(|c| quantiles(c)).collect() }
     }
 
@@ -135,32 +135,28 @@ fn sampled(line: Line<'_>, [low, high]: [f64; 2]) -> Vec<f64> {
     (0..COLUMNS).map(at).collect()
 }
 
-/// Counts a line in the cells that it crosses.
-fn count(line: &[f64], [low, high]: [f64; 2], counts: &mut [u32]) {
-    let row = |value: f64| ROWS as f64 * (value - low) / (high - low);
-    for (column, &value) in line.iter().enumerate() {
-        if !value.is_finite() {
-            continue;
-        }
-        // Half way to either neighbour, so that steep lines have no gaps.
-        let half = |other: Option<&f64>| match other {
-            Some(other) if other.is_finite() => 0.5 * (value + other),
-            _ => value,
-        };
-        let before = half(column.checked_sub(1).and_then(|i| line.get(i)));
-        let behind = half(line.get(column + 1));
-        let ends = [before, value, behind].map(row);
-        let least = ends.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        if most < 0.0 || ROWS as f64 <= least {
-            continue;
-        }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held to rows")]
-        let (first, last) = (least.max(0.0) as usize, most.min(ROWS as f64 - 1.0) as usize);
-        for cell in &mut counts[column * ROWS + first..=column * ROWS + last] {
-            *cell += 1;
-        }
+/// Counts a line in the cells of a column that it crosses.
+fn count(line: &[f64], column: usize, [low, high]: [f64; 2], cells: &mut [u32]) {
+    let value = line[column];
+    if !value.is_finite() {
+        return;
     }
+    // Half way to either neighbour, so that steep lines have no gaps.
+    let half = |other: Option<&f64>| match other {
+        Some(other) if other.is_finite() => 0.5 * (value + other),
+        _ => value,
+    };
+    let before = half(column.checked_sub(1).and_then(|i| line.get(i)));
+    let behind = half(line.get(column + 1));
+    let ends = [before, value, behind].map(|value| ROWS as f64 * (value - low) / (high - low));
+    let least = ends.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if most < 0.0 || ROWS as f64 <= least {
+        return;
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held to rows")]
+    let (first, last) = (least.max(0.0) as usize, most.min(ROWS as f64 - 1.0) as usize);
+    cells[first..=last].iter_mut().for_each(|cell| *cell += 1);
 }
 
 /// The range of nearly all values of sorted columns.
@@ -168,8 +164,8 @@ fn central_range(columns: &[Vec<f64>]) -> [f64; 2] {
     let mut all: Vec<f64> = columns.iter().flatten().copied().collect();
     let Some(last) = all.len().checked_sub(1) else { return [0.0, 1.0] };
     let stray = all.len() / 200;
-    all.sort_unstable_by(f64::total_cmp);
-    let (mut low, mut high) = (all[stray], all[last - stray]);
+    let mut ranked = |rank: usize| *all.select_nth_unstable_by(rank, f64::total_cmp).1;
+    let (mut low, mut high) = (ranked(stray), ranked(last - stray));
     let width = high - low;
     if 0.0 < low && low < 1.5 * width {
         low = 0.0;

@@ -6,6 +6,7 @@ use image::RgbImage;
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{Density, Layer, Plot, PlotError};
 use crate::{Rgb, Size};
@@ -74,9 +75,9 @@ fn draw<B: DrawingBackend>(plot: &Plot, area: &DrawingArea<B, Shift>) -> Result<
     let letters = (f64::from(width.min(height)) / 22.0).clamp(11.0, 26.0);
     let [[x0, x1], [y0, y1]] = plot.ranges();
     let pixels = |factor: f64| crate::num::ceil_to_count(factor * letters, 400);
-    let mut chart = ChartBuilder::on(area)
+    let body = draw_head(plot, area, letters)?;
+    let mut chart = ChartBuilder::on(&body)
         .margin(pixels(0.7))
-        .caption(&plot.title, ("sans-serif", 1.2 * letters).into_font().color(&INK))
         .x_label_area_size(pixels(3.0))
         .y_label_area_size(pixels(5.0))
         .build_cartesian_2d(x0..x1, y0..y1)
@@ -97,77 +98,102 @@ fn draw<B: DrawingBackend>(plot: &Plot, area: &DrawingArea<B, Shift>) -> Result<
         .light_line_style(TRANSPARENT)
         .draw()
         .map_err(failed)?;
-    let mut named = false;
     for layer in &plot.layers {
-        named |= draw_layer(&mut chart, layer)?;
-    }
-    if named {
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .background_style(PAPER.mix(0.85))
-            .border_style(SOFT)
-            .label_font(("sans-serif", 0.95 * letters).into_font().color(&INK))
-            .draw()
-            .map_err(failed)?;
+        draw_layer(&mut chart, layer)?;
     }
     area.present().map_err(failed)
 }
 
-/// Draws a layer; whether it has a name for the legend.
+/// Draws the title, and below it a row of keys to the layers that have names, where they hide
+/// nothing; what is left of the area.
+fn draw_head<B: DrawingBackend>(
+    plot: &Plot,
+    area: &DrawingArea<B, Shift>,
+    letters: f64,
+) -> Result<DrawingArea<B, Shift>, PlotError> {
+    const KEY: i32 = 20;
+    let pixels = |factor: f64| crate::num::ceil_to_count(factor * letters, 400).cast_signed();
+    let named = || plot.layers.iter().filter(|layer| !layer.name().is_empty());
+    let (line, gap) = (pixels(1.5), pixels(1.2));
+    let title_height = pixels(2.2);
+    let keys_height = if named().next().is_some() { line } else { 0 };
+    let (head, body) = area.split_vertically(title_height + keys_height);
+    let (width, _) = area.dim_in_pixel();
+    let middle = width.cast_signed() / 2;
+    let words = |size: f64| ("sans-serif", size * letters).into_font().color(&INK);
+    let title = words(1.2).pos(Pos::new(HPos::Center, VPos::Center));
+    head.draw(&Text::new(plot.title.as_str(), (middle, title_height / 2 + 2), title))
+        .map_err(failed)?;
+    let style = words(0.95).pos(Pos::new(HPos::Left, VPos::Center));
+    let mut keys = Vec::new();
+    for layer in named() {
+        let (words, _) = head.estimate_text_size(layer.name(), &style).map_err(failed)?;
+        keys.push((layer, KEY + KEY / 3 + words.cast_signed()));
+    }
+    let all = keys.iter().map(|(_, width)| width + gap).sum::<i32>() - gap;
+    let (mut x, y) = ((middle - all / 2).max(0), title_height + line / 2);
+    for (layer, width) in keys {
+        draw_key(&head, layer, [x, x + KEY], y)?;
+        let at = (x + KEY + KEY / 3, y);
+        head.draw(&Text::new(layer.name(), at, style.clone())).map_err(failed)?;
+        x += width + gap;
+    }
+    Ok(body)
+}
+
+/// A sample of a layer's line or filling.
+fn draw_key<B: DrawingBackend>(
+    head: &DrawingArea<B, Shift>,
+    layer: &Layer,
+    [left, right]: [i32; 2],
+    y: i32,
+) -> Result<(), PlotError> {
+    match layer {
+        Layer::Density(_) => Ok(()),
+        Layer::Line { color, width, .. } => {
+            let style = rgb(*color).stroke_width(*width);
+            head.draw(&PathElement::new(vec![(left, y), (right, y)], style)).map_err(failed)
+        }
+        Layer::Band { color, opacity, .. } | Layer::Bars { color, opacity, .. } => {
+            let style = rgb(*color).mix(*opacity).filled();
+            head.draw(&Rectangle::new([(left, y - 5), (right, y + 5)], style)).map_err(failed)
+        }
+    }
+}
+
 fn draw_layer<B: DrawingBackend>(
     chart: &mut Chart<'_, '_, B>,
     layer: &Layer,
-) -> Result<bool, PlotError> {
+) -> Result<(), PlotError> {
     match layer {
-        Layer::Density(density) => {
-            draw_density(chart, density)?;
-            Ok(false)
-        }
-        Layer::Line { points, name, color, width } => {
+        Layer::Density(density) => draw_density(chart, density)?,
+        Layer::Line { points, color, width, .. } => {
             let style = rgb(*color).stroke_width(*width);
             let pieces = points.split(|p| !p.iter().all(|v| v.is_finite()));
-            let mut first = true;
             for piece in pieces.filter(|piece| !piece.is_empty()) {
                 let line = LineSeries::new(piece.iter().map(|&[x, y]| (x, y)), style);
-                let drawn = chart.draw_series(line).map_err(failed)?;
-                if std::mem::take(&mut first) && !name.is_empty() {
-                    let key = move |(x, y)| PathElement::new(vec![(x, y), (x + 18, y)], style);
-                    drawn.label(name).legend(key);
-                }
+                chart.draw_series(line).map_err(failed)?;
             }
-            Ok(!first && !name.is_empty())
         }
-        Layer::Band { points, name, color, opacity } => {
+        Layer::Band { points, color, opacity, .. } => {
             let finite = points.iter().filter(|p| p.iter().all(|v| v.is_finite()));
             let upper = finite.clone().map(|&[x, _, high]| (x, high));
             let lower = finite.rev().map(|&[x, low, _]| (x, low));
             let outline: Vec<(f64, f64)> = upper.chain(lower).collect();
             let style = rgb(*color).mix(*opacity).filled();
             let band = std::iter::once(Polygon::new(outline, style));
-            let drawn = chart.draw_series(band).map_err(failed)?;
-            if !name.is_empty() {
-                drawn.label(name).legend(move |p| key(p, style));
-            }
-            Ok(!name.is_empty())
+            chart.draw_series(band).map_err(failed)?;
         }
-        Layer::Bars { bars, name, color, opacity } => {
+        Layer::Bars { bars, color, opacity, .. } => {
             let style = rgb(*color).mix(*opacity).filled();
             let rectangles = bars
                 .iter()
                 .filter(|bar| 0.0 < bar.height)
                 .map(|bar| Rectangle::new([(bar.from, 0.0), (bar.to, bar.height)], style));
-            let drawn = chart.draw_series(rectangles).map_err(failed)?;
-            if !name.is_empty() {
-                drawn.label(name).legend(move |p| key(p, style));
-            }
-            Ok(!name.is_empty())
+            chart.draw_series(rectangles).map_err(failed)?;
         }
     }
-}
-
-fn key((x, y): (i32, i32), style: ShapeStyle) -> Rectangle<(i32, i32)> {
-    Rectangle::new([(x, y - 5), (x + 18, y + 5)], style)
+    Ok(())
 }
 
 fn draw_density<B: DrawingBackend>(

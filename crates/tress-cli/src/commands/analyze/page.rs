@@ -2,16 +2,17 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
 use tress::analysis::{Hand, Quantiles, Quantity};
 use tress::view::plot::Plot;
-use tress::view::{Page, Size, View, png};
+use tress::view::{Page, View, png};
 
 use crate::failure::Failure;
 use crate::report::{count, short};
 
 use super::study::Study;
 use super::units::{Shown, Units};
-use super::{pictures, plots};
+use super::{pictures, plots::SIZE as PLOT};
 
 /// Switchbacks listed one by one, at most.
 const LISTED: usize = 20;
@@ -25,13 +26,16 @@ pub(super) fn page(
     view: View,
 ) -> Result<String, Failure> {
     let name = input.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
+    let (pictures, drawn) = rayon::join(
+        || pictures_of(study, quantities, view),
+        || plots.par_iter().map(|plot| plot.svg(PLOT)).collect::<Result<Vec<_>, _>>(),
+    );
     let mut page = Page::new(&format!("{name}: what the groom is like"));
     introduction(study, &mut page);
     problems(study, &mut page);
     page.heading("Seen");
-    page.png(&png(&pictures::natural(study, view)?)?, "As it grows.");
-    for &of in pictured(study, quantities).iter() {
-        page.png(&png(&pictures::by(study, of, view)?)?, &format!("By {}.", of.title()));
+    for (bytes, caption) in pictures? {
+        page.png(&bytes, &caption);
     }
     numbers(study, &mut page);
     page.heading("Plotted");
@@ -39,12 +43,29 @@ pub(super) fn page(
         "Along every strand: the darker, the more strands. The line is their median, half of them \
          run within the band, nine in ten between the thin lines.",
     );
-    for plot in plots {
-        page.svg(&plot.svg(Size::new(plots::SIZE.0, plots::SIZE.1))?, &plot.title);
+    for (svg, plot) in drawn?.iter().zip(plots) {
+        page.svg(svg, &plot.title);
     }
     switchbacks(study, &mut page);
     page.note(concat!("Made by tress ", env!("CARGO_PKG_VERSION"), "."));
     Ok(page.finish())
+}
+
+/// The hair as it grows, and coloured: files of pictures, with what they show.
+fn pictures_of(
+    study: &Study,
+    quantities: &[Quantity],
+    view: View,
+) -> Result<Vec<(Vec<u8>, String)>, Failure> {
+    let pictured = pictured(study, quantities);
+    let (natural, coloured) = rayon::join(
+        || pictures::natural(study, view),
+        || pictures::by(study, &pictured, view),
+    );
+    let captions = pictured.iter().map(|of| format!("By {}.", of.title()));
+    let captions = std::iter::once("As it grows.".to_owned()).chain(captions);
+    let images: Vec<_> = std::iter::once(natural?).chain(coloured?).zip(captions).collect();
+    images.into_par_iter().map(|(image, caption)| Ok((png(&image)?, caption))).collect()
 }
 
 /// What is worth a picture: quantities that coils have, where there are any.
@@ -130,7 +151,7 @@ fn numbers(study: &Study, page: &mut Page) {
             max: 2.0 * q.max,
         })
     };
-    let rows: [(&str, Shown, Option<Quantiles>); 11] = [
+    let rows: [(&str, Shown, Option<Quantiles>); 12] = [
         ("length", units.strand(), s.length),
         ("curl index (length over reach)", Units::none(), s.curl_index),
         ("turns", Units::none(), s.turns),
@@ -138,7 +159,8 @@ fn numbers(study: &Study, page: &mut Page) {
         ("coil diameter", units.coil(), doubled(s.coil_radius)),
         ("pitch", units.coil(), s.pitch),
         ("turns a length of centerline", units.per_length("turns"), s.frequency),
-        ("circularity (1 coil, 0 wave)", Units::none(), s.circularity),
+        ("circularity (1 winds one way, 0 neither)", Units::none(), s.circularity),
+        ("roundness (1 coil, 0 wave)", Units::none(), s.roundness),
         ("frizz (share of power finer than the coil)", Units::none(), s.frizz),
         ("phase-locked share of the length", Units::none(), study.locked()),
         ("strands in a wisp", Units::none(), study.wisps.size()),

@@ -2,7 +2,8 @@
 
 use tress::analysis::{Quantity, QuantityValues};
 use tress::view::{
-    ColorMap, Coloring, Panel, RenderOptions, RgbImage, Scale, Size, View, png, render, sheet,
+    ColorMap, Coloring, Panel, RenderOptions, RgbImage, Scale, Size, View, png, render,
+    render_each, sheet,
 };
 
 use crate::failure::Failure;
@@ -21,31 +22,43 @@ pub(crate) fn natural(study: &Study, view: View) -> Result<RgbImage, Failure> {
     Ok(render(&study.groom, &Coloring::Natural, &options(view))?)
 }
 
-/// The hair coloured by a quantity, with its legend.
-pub(crate) fn by(study: &Study, of: Quantity, view: View) -> Result<RgbImage, Failure> {
-    let shown = study.shown(of);
-    let (values, is_of_strands) = match study.analysis.values(of) {
-        QuantityValues::Strands(values) => (shown.of(values), true),
-        QuantityValues::Joints(values) => (shown.of(values), false),
-    };
+/// The hair coloured by each quantity, with its legend.
+pub(crate) fn by(
+    study: &Study,
+    quantities: &[Quantity],
+    view: View,
+) -> Result<Vec<RgbImage>, Failure> {
+    let shown: Vec<(QuantityValues, Scale)> =
+        quantities.iter().map(|&of| values_and_scale(study, of)).collect();
+    let colorings: Vec<Coloring<'_>> = shown
+        .iter()
+        .map(|(values, scale)| match values {
+            QuantityValues::Strands(values) => Coloring::Strands(values, scale),
+            QuantityValues::Joints(values) => Coloring::Points(values, scale),
+        })
+        .collect();
+    Ok(render_each(&study.groom, &colorings, &options(view))?)
+}
+
+/// Values in the unit that they are shown in, and what shows them.
+fn values_and_scale(study: &Study, of: Quantity) -> (QuantityValues, Scale) {
+    let unit = study.shown(of);
+    let mut shown = study.analysis.values(of);
+    let (QuantityValues::Strands(values) | QuantityValues::Joints(values)) = &mut shown;
+    values.iter_mut().for_each(|value| *value *= unit.factor);
     let map = match of {
-        Quantity::Handedness | Quantity::Beta => ColorMap::PurpleGreen,
+        Quantity::Handedness | Quantity::Beta | Quantity::BetaFourier => ColorMap::PurpleGreen,
         Quantity::Twist | Quantity::Pitch => ColorMap::BlueRed,
         _ => ColorMap::Viridis,
     };
     let range = Scale::without_strays(values.iter().copied(), 0.01);
-    let mut scale = Scale { title: of.title().into(), unit: shown.name, map, ..range };
-    if matches!(of, Quantity::Handedness | Quantity::Beta) {
+    let mut scale = Scale { title: of.title().into(), unit: unit.name, map, ..range };
+    if map == ColorMap::PurpleGreen {
         (scale.min, scale.max) = (-1.0, 1.0);
     } else if of.is_signed() {
         scale = scale.symmetric();
     }
-    let coloring = if is_of_strands {
-        Coloring::Strands(&values, &scale)
-    } else {
-        Coloring::Points(&values, &scale)
-    };
-    Ok(render(&study.groom, &coloring, &options(view))?)
+    (shown, scale)
 }
 
 /// Pictures by each of the quantities on one sheet, as the bytes of a PNG file.
@@ -54,8 +67,7 @@ pub(crate) fn sheet_by(
     quantities: &[Quantity],
     view: View,
 ) -> Result<Vec<u8>, Failure> {
-    let images: Vec<RgbImage> =
-        quantities.iter().map(|&of| by(study, of, view)).collect::<Result<_, _>>()?;
+    let images = by(study, quantities, view)?;
     if let [image] = &images[..] {
         return Ok(png(image)?);
     }

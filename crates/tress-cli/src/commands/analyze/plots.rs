@@ -1,5 +1,6 @@
 //! The plots of an analysis.
 
+use rayon::prelude::*;
 use tress::analysis::{Quantity, StrandMeasures};
 use tress::view::plot::{COLORS, Density, Layer, Line, Plot, histogram};
 use tress::view::{Panel, Size, png, sheet as picture_sheet};
@@ -10,7 +11,7 @@ use super::study::Study;
 use super::units::{Shown, Units};
 
 /// Pixels of a plot.
-pub(crate) const SIZE: (u32, u32) = (760, 460);
+pub(crate) const SIZE: Size = Size::new(760, 460);
 
 /// Grooms of no more strands are plotted line by line.
 const FEW: usize = 24;
@@ -23,7 +24,9 @@ const MEDIAN: [u8; 3] = COLORS[1];
 
 /// All plots: quantities along the strands, then distributions over the strands, then the spectrum.
 pub(crate) fn all(study: &Study, quantities: &[Quantity]) -> Vec<Plot> {
-    let mut plots: Vec<Plot> = quantities.iter().filter_map(|&of| along(study, of)).collect();
+    let shares = shares(study);
+    let mut plots: Vec<Plot> =
+        quantities.par_iter().filter_map(|&of| along(study, of, &shares)).collect();
     plots.extend(histograms(study).into_iter().map(|(title, shown, values)| Plot {
         title: title.into(),
         x: shown.titled(title),
@@ -36,9 +39,9 @@ pub(crate) fn all(study: &Study, quantities: &[Quantity]) -> Vec<Plot> {
 }
 
 /// A quantity along every strand, from root to tip; none for one that strands have as a whole.
-fn along(study: &Study, of: Quantity) -> Option<Plot> {
+fn along(study: &Study, of: Quantity, shares: &[f64]) -> Option<Plot> {
     let (title, shown, values) = column(study, of)?;
-    let (shares, values) = (shares(study), shown.of(values.iter().copied()));
+    let values = shown.of(values.iter().copied());
     let strands = study.groom.strands();
     let lines = || {
         let ranges = (0..strands.len()).map(|i| strands.range(i));
@@ -105,6 +108,7 @@ pub(crate) fn column(study: &Study, of: Quantity) -> Option<(&'static str, Shown
         Quantity::Frequency => ("Turns a length of centerline", &along.frequency),
         Quantity::Pitch => ("Pitch", &along.pitch),
         Quantity::Beta => ("Beta", &along.beta),
+        Quantity::BetaFourier => ("Beta, Fourier centerline", &along.beta_fourier),
         Quantity::Curvature => ("Curvature", &along.curvature),
         Quantity::Twist => ("Twist", &along.twist),
         Quantity::Handedness => {
@@ -153,8 +157,11 @@ pub(crate) fn histograms(study: &Study) -> Vec<Distribution> {
 pub(crate) fn spectrum(studies: &[(&Study, &str, [u8; 3])]) -> Plot {
     let shown = studies.first().map_or(Units::none(), |(s, ..)| s.units.per_length("turns"));
     let layers = studies.iter().map(|(study, name, color)| {
-        let shares = study.analysis.spectrum.shares().into_iter();
-        let points = shares.map(|(f, share)| [(f * shown.factor).log2(), 100.0 * share]).collect();
+        let shares = study.analysis.spectrum.shares();
+        let points = with_power(&shares)
+            .iter()
+            .map(|(f, share)| [(f * shown.factor).log2(), 100.0 * share])
+            .collect();
         Layer::line(points, *color).named(*name)
     });
     Plot {
@@ -167,27 +174,34 @@ pub(crate) fn spectrum(studies: &[(&Study, &str, [u8; 3])]) -> Plot {
     }
 }
 
+/// A spectrum without its ends that hold next to nothing.
+fn with_power(shares: &[(f64, f64)]) -> &[(f64, f64)] {
+    let most = shares.iter().map(|(_, share)| *share).fold(0.0, f64::max);
+    let there = |(_, share): &(f64, f64)| 2e-3 * most < *share;
+    let ends = shares.iter().position(there).zip(shares.iter().rposition(there));
+    ends.map_or(&[], |(first, last)| &shares[first..=last])
+}
+
 /// All plots on one sheet, as the bytes of an SVG or PNG file.
 pub(crate) fn sheet(plots: &[Plot], as_svg: bool) -> Result<Vec<u8>, Failure> {
     const COLUMNS: usize = 2;
-    let size = Size::new(SIZE.0, SIZE.1);
     let columns = COLUMNS.min(plots.len()).max(1);
     if as_svg {
         let (width, height) =
-            (SIZE.0 as usize * columns, SIZE.1 as usize * plots.len().div_ceil(columns));
+            (SIZE.width as usize * columns, SIZE.height as usize * plots.len().div_ceil(columns));
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\">\n"
         );
         for (i, plot) in plots.iter().enumerate() {
-            let (x, y) = (i % columns * SIZE.0 as usize, i / columns * SIZE.1 as usize);
-            let drawn = plot.svg(size)?;
+            let place = [i % columns * SIZE.width as usize, i / columns * SIZE.height as usize];
+            let ([x, y], drawn) = (place, plot.svg(SIZE)?);
             svg.push_str(&drawn.replacen("<svg ", &format!("<svg x=\"{x}\" y=\"{y}\" "), 1));
         }
         svg.push_str("</svg>\n");
         return Ok(svg.into_bytes());
     }
-    let pictures = plots.iter().map(|plot| plot.picture(size)).collect::<Result<Vec<_>, _>>()?;
+    let pictures = plots.iter().map(|plot| plot.picture(SIZE)).collect::<Result<Vec<_>, _>>()?;
     let panels: Vec<Panel<'_>> =
         pictures.iter().map(|image| Panel { image, caption: "" }).collect();
     Ok(png(&picture_sheet(&panels, columns, [255; 3])?)?)

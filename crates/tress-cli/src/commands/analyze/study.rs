@@ -61,7 +61,9 @@ impl Study {
             Quantity::Length => self.units.strand(),
             Quantity::Curvature | Quantity::Twist => self.units.per_length(""),
             Quantity::Frequency => self.units.per_length("turns"),
-            Quantity::Turns | Quantity::Handedness | Quantity::Beta => Units::none(),
+            Quantity::Turns | Quantity::Handedness | Quantity::Beta | Quantity::BetaFourier => {
+                Units::none()
+            }
         }
     }
 

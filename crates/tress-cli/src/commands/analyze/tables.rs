@@ -12,14 +12,14 @@ pub(super) fn strands(study: &Study) -> String {
     let unit = study.units.own();
     let mut text = format!(
         "strand,length [{unit}],reach [{unit}],curl_index,turns,coil_radius [{unit}],\
-         pitch [{unit}],frequency [turns/{unit} of centerline],circularity,hand,hand_balance,\
-         switchbacks,frizz,wisp,phase_locked\n"
+         pitch [{unit}],frequency [turns/{unit} of centerline],circularity,roundness,hand,\
+         hand_balance,switchbacks,frizz,wisp,phase_locked\n"
     );
     for (i, measures) in study.analysis.strands.iter().enumerate() {
         let _ = write!(text, "{i},");
         match measures {
             Some(measures) => text.push_str(&row(measures)),
-            None => text.push_str(&",".repeat(11)),
+            None => text.push_str(&",".repeat(12)),
         }
         let locked = study.wisps.locked.get(i).copied();
         let wisp = study.wisps.wisp.get(i).map_or(String::new(), u32::to_string);
@@ -43,6 +43,7 @@ fn row(m: &StrandMeasures) -> String {
         number(m.pitch),
         number(m.frequency),
         m.circularity.to_string(),
+        m.roundness.to_string(),
         hand.into(),
         m.hand_balance.to_string(),
         m.switchbacks.to_string(),
@@ -56,7 +57,7 @@ pub(super) fn along(study: &Study) -> String {
     let unit = study.units.own();
     let mut text = format!(
         "strand,arc_length [{unit}],curvature [1/{unit}],twist [1/{unit}],radius [{unit}],\
-         pitch [{unit}],frequency [turns/{unit} of centerline],beta,circularity\n"
+         pitch [{unit}],frequency [turns/{unit} of centerline],beta,beta_fourier,circularity\n"
     );
     let strands = study.groom.strands();
     let columns = study.analysis.along.columns();

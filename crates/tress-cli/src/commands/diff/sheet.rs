@@ -22,7 +22,7 @@ const BARS: usize = 40;
 /// Both grooms by one camera, before and after, and below them what is distributed otherwise.
 pub(super) fn png_of(a: &Study, b: &Study, view: View) -> Result<Vec<u8>, Failure> {
     let [before, after] = pictures(a, b, view)?;
-    let size = Size::new(PICTURE, PICTURE * PLOT.1 / PLOT.0);
+    let size = Size::new(PICTURE, PICTURE * PLOT.height / PLOT.width);
     let plots = plots(a, b);
     let drawn: Vec<RgbImage> =
         plots.iter().map(|plot| plot.picture(size)).collect::<Result<_, _>>()?;
@@ -53,7 +53,7 @@ pub(super) fn page_of(
     }
     page.heading("Plotted");
     for plot in plots(a, b) {
-        page.svg(&plot.svg(Size::new(PLOT.0, PLOT.1))?, &plot.title);
+        page.svg(&plot.svg(PLOT)?, &plot.title);
     }
     Ok(page.finish())
 }
