@@ -21,12 +21,13 @@ mod sculpt;
 mod spectra;
 mod switchback;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
 
 use crate::args::Everywhere;
 use crate::failure::Failure;
+use crate::options::FormatArgs;
 use crate::report::Report;
 
 /// The commands.
@@ -55,22 +56,55 @@ pub(crate) enum Command {
 }
 
 impl Command {
-    /// The file that a command writes, if it is one.
-    pub(crate) fn output(&self) -> Option<&Path> {
+    /// The files that a command writes, the groom or picture that it is there for first.
+    pub(crate) fn outputs(&self) -> Vec<&Path> {
         match self {
-            Self::Convert(args) => Some(&args.output),
-            Self::Fit(args) => Some(&args.output),
-            Self::Sample(args) => Some(&args.output),
-            Self::Ruffle(args) => Some(&args.output),
-            Self::Blend(args) => Some(&args.output),
-            Self::Recoil(args) => Some(&args.output),
-            Self::Armature(args) => Some(&args.output),
-            Self::Sculpt(args) => Some(&args.output),
-            Self::Grow(args) => Some(&args.output),
-            Self::Render(args) => Some(&args.output),
+            Self::Demo(args) => vec![&args.dir],
+            Self::Info(_) => Vec::new(),
+            Self::Analyze(args) => {
+                let tables = [&args.csv, &args.csv_along, &args.csv_plots];
+                given(&[tables.as_slice(), &[&args.plot, &args.png, &args.html]].concat())
+            }
+            Self::Diff(args) => given(&[&args.png, &args.html]),
+            Self::Convert(args) => vec![&args.output],
+            Self::Fit(args) => vec![&args.output],
+            Self::Sample(args) => vec![&args.output],
+            Self::Ruffle(args) => vec![&args.output],
+            Self::Blend(args) => vec![&args.output],
+            Self::Recoil(args) => vec![&args.output],
+            Self::Armature(args) => vec![&args.output],
+            Self::Sculpt(args) => vec![&args.output],
+            Self::Grow(args) => vec![&args.output],
+            Self::Groom(args) => args.outputs(),
+            Self::Spectra(args) => args.files.last().map(PathBuf::as_path).into_iter().collect(),
+            Self::Scatter(args) => vec![&args.output],
+            Self::Switchback(args) => vec![args.output()],
+            Self::Helicoid(args) => vec![args.output()],
+            Self::Render(args) => vec![&args.output],
+            Self::Merge(args) => args.files.last().map(PathBuf::as_path).into_iter().collect(),
+        }
+    }
+
+    /// What was chosen of what formats leave open, by commands that write grooms.
+    pub(crate) fn format(&self) -> Option<&FormatArgs> {
+        match self {
+            Self::Convert(args) => Some(&args.format),
+            Self::Sample(args) => Some(&args.format),
+            Self::Ruffle(args) => Some(&args.road.format),
+            Self::Blend(args) => Some(&args.road.format),
+            Self::Recoil(args) => Some(&args.road.format),
+            Self::Sculpt(args) => Some(&args.road.format),
+            Self::Grow(args) => Some(&args.format),
+            Self::Switchback(args) => Some(args.format()),
+            Self::Helicoid(args) => args.format(),
             _ => None,
         }
     }
+}
+
+/// The files that were named.
+fn given<'a>(files: &[&'a Option<PathBuf>]) -> Vec<&'a Path> {
+    files.iter().filter_map(|file| file.as_deref()).collect()
 }
 
 /// Runs a command.

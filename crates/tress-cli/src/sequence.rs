@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use serde_json::json;
 
 use crate::args::Cli;
-use crate::commands;
+use crate::commands::{self, Command};
 use crate::failure::Failure;
 use crate::report::{Report, count};
 
@@ -89,6 +89,9 @@ impl FromStr for Frames {
     }
 }
 
+/// The frame whose command line shows what is asked of every frame.
+const SEEN: u32 = 0;
+
 /// What a command knows of the sequence that it is a part of.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Frame {
@@ -130,13 +133,14 @@ impl Sequence {
 
     /// A command line by which to see what is asked of every frame.
     pub(crate) fn parse(&self) -> Cli {
-        Cli::parse_from(self.command_line(0))
+        Cli::parse_from(self.command_line(SEEN))
     }
 
     /// Runs the command on every frame.
     pub(crate) fn run(&self, asked: &Cli) -> Result<Report, Failure> {
         let frames = self.frames(asked)?;
-        self.check_output()?;
+        // Not what was `asked`, which may name one file that frames are gathered in later.
+        check_outputs(&self.parse().command, |output| self.names(output))?;
         let first = frames[0];
         let bar = progress(frames.len(), asked);
         let done: Vec<Result<Report, Failure>> = frames
@@ -156,19 +160,9 @@ impl Sequence {
         summary(&frames, done)
     }
 
-    /// Frames written to the same file would leave the last one of them.
-    fn check_output(&self) -> Result<(), Failure> {
-        let any = self.parse();
-        let Some(output) = any.command.output() else { return Ok(()) };
-        if self.patterns.iter().any(|(_, pattern)| Path::new(&pattern.name(0)) == output) {
-            return Ok(());
-        }
-        let stem = output.file_stem().unwrap_or_default().to_string_lossy();
-        let end = output.extension().unwrap_or_default().to_string_lossy();
-        Err(Failure::Usage(format!(
-            "{}: every frame would write this file; name one a frame, as in {stem}.%04d.{end}",
-            output.display()
-        )))
+    /// Whether a file of the command line by which it is [seen](Self::parse) is one a frame.
+    pub(crate) fn names(&self, file: &Path) -> bool {
+        self.patterns.iter().any(|(_, pattern)| Path::new(&pattern.name(SEEN)) == file)
     }
 
     fn frames(&self, asked: &Cli) -> Result<Vec<u32>, Failure> {
@@ -183,6 +177,26 @@ impl Sequence {
         }
         Ok(frames)
     }
+}
+
+/// An error unless every file that a command writes is one that `has_frames`: of frames that are
+/// written to the same file only the last one would stay.
+pub(crate) fn check_outputs(
+    command: &Command,
+    has_frames: impl Fn(&Path) -> bool,
+) -> Result<(), Failure> {
+    let Some(output) = command.outputs().into_iter().find(|output| !has_frames(output)) else {
+        return Ok(());
+    };
+    let stem = output.file_stem().unwrap_or_default().to_string_lossy();
+    let end = match output.extension() {
+        Some(extension) => format!(".{}", extension.to_string_lossy()),
+        None => String::new(),
+    };
+    Err(Failure::Usage(format!(
+        "{}: every frame would write this; name one a frame, as in {stem}.%04d{end}",
+        output.display()
+    )))
 }
 
 fn progress(frames: usize, asked: &Cli) -> ProgressBar {

@@ -120,7 +120,8 @@ fn write_for_unreal(output: &Path, groom: &Groom, report: &mut Report) -> Result
     Ok(())
 }
 
-fn options(format: &FormatArgs) -> WriteOptions {
+/// What was chosen of what formats leave open.
+pub(crate) fn options(format: &FormatArgs) -> WriteOptions {
     let usd_curves = match format.usd_curves {
         None | Some(UsdCurvesArg::Linear) => UsdCurves::Linear,
         Some(UsdCurvesArg::CatmullRom) => UsdCurves::CatmullRom,

@@ -5,6 +5,8 @@ mod curves;
 mod edit;
 mod fit;
 
+use std::path::{Path, PathBuf};
+
 use clap::{Args, Subcommand};
 
 use crate::args::Everywhere;
@@ -19,6 +21,20 @@ use crate::report::Report;
 pub(crate) struct GroomArgs {
     #[command(subcommand)]
     command: GroomCommand,
+}
+
+impl GroomArgs {
+    /// The files to write.
+    pub(super) fn outputs(&self) -> Vec<&Path> {
+        match &self.command {
+            GroomCommand::Build(args) => vec![&args.output],
+            GroomCommand::Edit(args) => vec![&args.output],
+            GroomCommand::Fit(args) => {
+                let others = [&args.checkpoint, &args.report].into_iter().flatten();
+                std::iter::once(&args.output).chain(others).map(PathBuf::as_path).collect()
+            }
+        }
+    }
 }
 
 #[derive(Debug, Subcommand)]

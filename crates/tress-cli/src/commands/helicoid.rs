@@ -6,10 +6,13 @@ mod ron_file;
 mod trace;
 mod wisp;
 
+use std::path::Path;
+
 use clap::{Args, Subcommand};
 
 use crate::args::Everywhere;
 use crate::failure::Failure;
+use crate::options::FormatArgs;
 use crate::report::Report;
 
 /// Hairs as chains of helicoids: fitted, traced, spread to wisps, filled in between
@@ -24,6 +27,28 @@ use crate::report::Report;
 pub(crate) struct HelicoidArgs {
     #[command(subcommand)]
     command: HelicoidCommand,
+}
+
+impl HelicoidArgs {
+    /// The file to write.
+    pub(super) fn output(&self) -> &Path {
+        match &self.command {
+            HelicoidCommand::Fit(args) => &args.output,
+            HelicoidCommand::Trace(args) => &args.output,
+            HelicoidCommand::Wisp(args) => &args.output,
+            HelicoidCommand::Fill(args) => &args.output,
+        }
+    }
+
+    /// Choices of formats, where the command writes a groom.
+    pub(super) fn format(&self) -> Option<&FormatArgs> {
+        match &self.command {
+            HelicoidCommand::Fit(_) => None,
+            HelicoidCommand::Trace(args) => Some(&args.format),
+            HelicoidCommand::Wisp(args) => Some(&args.format),
+            HelicoidCommand::Fill(args) => Some(&args.format),
+        }
+    }
 }
 
 #[derive(Debug, Subcommand)]

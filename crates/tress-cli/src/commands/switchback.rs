@@ -1,6 +1,6 @@
 //! `tress switchback`: coils that change hands, made and put into strands.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, ValueEnum};
 use serde::Serialize;
@@ -30,6 +30,24 @@ use super::fit::say_fit;
 pub(crate) struct SwitchbackArgs {
     #[command(subcommand)]
     command: SwitchbackCommand,
+}
+
+impl SwitchbackArgs {
+    /// The file to write.
+    pub(super) fn output(&self) -> &Path {
+        match &self.command {
+            SwitchbackCommand::Make(args) => &args.output,
+            SwitchbackCommand::Insert(args) => &args.output,
+        }
+    }
+
+    /// Choices of formats.
+    pub(super) fn format(&self) -> &FormatArgs {
+        match &self.command {
+            SwitchbackCommand::Make(args) => &args.format,
+            SwitchbackCommand::Insert(args) => &args.road.format,
+        }
+    }
 }
 
 #[derive(Debug, Subcommand)]

@@ -36,3 +36,25 @@ fn strands_too_long_for_unreal_are_resampled_and_the_error_is_said() {
     let error = bench.fails("convert long.npy.obj long.usdc --target unreal", 2);
     assert!(error.contains("writes an .abc file"), "{error}");
 }
+
+#[expect(clippy::print_stderr, reason = "a test that is skipped says so")]
+#[test]
+fn a_full_disk_is_one_line_on_standard_error() {
+    let bench = Bench::new();
+    let disk = bench.path("disk");
+    std::fs::create_dir(&disk).expect("a folder");
+    let mount = |words: &[&str]| {
+        let done = std::process::Command::new(words[0]).args(&words[1..]).arg(&disk).output();
+        done.is_ok_and(|output| output.status.success())
+    };
+    if !mount(&["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs"]) {
+        eprintln!("skipped: no small disk can be mounted here");
+        return;
+    }
+    let errors = ["npz", "abc", "usdc", "hair", "usda", "obj", "ply"]
+        .map(|format| bench.fails(&format!("convert groom.obj disk/groom.{format}"), 1));
+    mount(&["umount"]);
+    for error in errors {
+        assert!(error.contains("no space is left on the disk"), "{error}");
+    }
+}

@@ -32,7 +32,7 @@ pub(crate) struct FillArgs {
     /// The .ron file of guides
     guides: PathBuf,
     /// The file to write: polylines, or a .ron file of helicoids
-    output: PathBuf,
+    pub(super) output: PathBuf,
     /// Where hairs begin: the roots of this groom
     #[arg(long, value_name = "FILE", conflicts_with = "scalp")]
     roots: Option<PathBuf>,
@@ -51,7 +51,8 @@ pub(crate) struct FillArgs {
     /// Nearest guides that count; 0 for all
     #[arg(long, value_name = "N", default_value_t = 8)]
     neighbours: usize,
-    /// Hold every hair to the mean of the guides' points at so many places
+    /// Hold every hair in so many stretches to the mean of the guides' points: no more than a coil
+    /// has turns
     #[arg(long, value_name = "N", default_value_t = 0)]
     hold: usize,
     /// Mix (kT, kN, kB, alpha) as they are, pieces equally long, all guides counting
@@ -62,7 +63,7 @@ pub(crate) struct FillArgs {
     points: usize,
     /// Choices of formats
     #[command(flatten)]
-    format: FormatArgs,
+    pub(super) format: FormatArgs,
 }
 
 impl FillArgs {

@@ -25,7 +25,7 @@ pub(crate) struct HelicoidFitArgs {
     /// The groom
     input: PathBuf,
     /// The .ron file to write
-    output: PathBuf,
+    pub(super) output: PathBuf,
     /// What finds the parameters
     #[arg(long, value_enum, default_value_t = MethodArg::Newton)]
     method: MethodArg,

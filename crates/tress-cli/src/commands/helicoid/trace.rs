@@ -25,7 +25,7 @@ pub(crate) struct TraceArgs {
     /// The .ron file of helicoids
     input: PathBuf,
     /// The file to write
-    output: PathBuf,
+    pub(super) output: PathBuf,
     /// Points a strand
     #[arg(long, value_name = "N", default_value_t = 40)]
     points: usize,
@@ -37,7 +37,7 @@ pub(crate) struct TraceArgs {
     euler: Option<u32>,
     /// Choices of formats
     #[command(flatten)]
-    format: FormatArgs,
+    pub(super) format: FormatArgs,
 }
 
 pub(super) fn run(args: &TraceArgs, everywhere: &Everywhere) -> Result<Report, Failure> {

@@ -24,7 +24,7 @@ pub(crate) struct WispArgs {
     /// The .ron file of helicoids
     input: PathBuf,
     /// The file to write
-    output: PathBuf,
+    pub(super) output: PathBuf,
     /// Hairs of a wisp, the guide first
     #[arg(long, value_name = "N", default_value_t = 256)]
     hairs: usize,
@@ -51,7 +51,7 @@ pub(crate) struct WispArgs {
     points: usize,
     /// Choices of formats
     #[command(flatten)]
-    format: FormatArgs,
+    pub(super) format: FormatArgs,
 }
 
 pub(super) fn run(args: &WispArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
