@@ -6,6 +6,7 @@ use numpy::{
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use tress::geometry::glam::DVec3;
 use tress::geometry::{Column, Strands};
 
@@ -118,7 +119,7 @@ pub(crate) fn whole_counts(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec
 }
 
 /// An attribute: integers stay integers, rows of several numbers are floating-point.
-pub(crate) fn column(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Column> {
+fn column(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Column> {
     let array = array_like(value, name, b"fiub", "numbers")?;
     match (array.shape(), array.dtype().kind()) {
         ([_], b'i' | b'u' | b'b') => Ok(Column::Int(converted::<i64>(&array, "int64")?.values)),
@@ -128,6 +129,32 @@ pub(crate) fn column(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Column> {
         }
         (shape, _) => Err(misshapen(name, "(rows,) or (rows, components)", shape)),
     }
+}
+
+/// Attributes by name.
+pub(crate) fn named_columns(named: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<(String, Column)>> {
+    let named = named.into_iter().flatten();
+    named
+        .map(|(name, values)| {
+            let name: String = name.extract()?;
+            let column = column(&values, &name)?;
+            Ok((name, column))
+        })
+        .collect()
+}
+
+/// Attributes by name, nothing where None stands for one.
+pub(crate) fn columns_or_none(
+    named: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Vec<(String, Option<Column>)>> {
+    let named = named.into_iter().flatten();
+    named
+        .map(|(name, values)| {
+            let name: String = name.extract()?;
+            let column = if values.is_none() { None } else { Some(column(&values, &name)?) };
+            Ok((name, column))
+        })
+        .collect()
 }
 
 /// The error for an array of another shape.

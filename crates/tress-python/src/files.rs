@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use numpy::IntoPyArray;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tress::io::unreal::{self, Placement, UnrealOptions};
@@ -26,6 +26,33 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyAny>> 
         Model::Polylines(groom) => Ok(Bound::new(py, Groom(groom))?.into_any()),
         Model::Helices(helices) => Ok(Bound::new(py, HelixGroom(helices))?.into_any()),
     }
+}
+
+/// What `read_mesh` gives: positions, triangles, density.
+type Mesh<'py> =
+    (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<u32>>, Option<Bound<'py, PyArray1<f64>>>);
+
+/// Reads a mesh for `scatter` from an .obj or .ply file.
+///
+/// Returns:
+///     Vertices, (v, 3); triangles, (t, 3), polygons cut into such; and the density of hair that
+///     the file has for vertices, or else for triangles, None where it has none.
+///
+/// Raises:
+///     OSError: The file cannot be opened.
+///     TressError: Its extension is another, or it holds no mesh.
+#[pyfunction]
+pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Mesh<'_>> {
+    let scalp = py.detach(|| tress::io::mesh::read(path)).map_err(not_read)?;
+    let positions = scalp.mesh.positions();
+    let numbers: Vec<f64> = positions.iter().flat_map(|p| p.to_array()).collect();
+    let triangles = scalp.mesh.triangles();
+    let density = scalp.vertex_density.or(scalp.face_density);
+    Ok((
+        numbers.into_pyarray(py).reshape([positions.len(), 3])?,
+        triangles.as_flattened().to_vec().into_pyarray(py).reshape([triangles.len(), 3])?,
+        density.map(|density| density.into_pyarray(py)),
+    ))
 }
 
 /// Writes a file, whole or not at all; its extension names the format. A HelixGroom goes to a

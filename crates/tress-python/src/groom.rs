@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use tress::geometry::{Attributes, Groom as Inner};
 
-use crate::arrays::{column, indices, strands, vectors};
+use crate::arrays::{columns_or_none, indices, named_columns, strands, vectors};
 use crate::error::{TressError, refused};
 use crate::space::{Unit, letter, space, up_axis};
 use crate::views::{columns, lend, rows};
@@ -42,10 +42,8 @@ pub(crate) struct Groom(pub(crate) Inner);
 /// Attributes of so many rows out of a dictionary of arrays.
 pub(crate) fn attributes(named: Option<&Bound<'_, PyDict>>, rows: usize) -> PyResult<Attributes> {
     let mut table = Attributes::new(rows);
-    for (name, values) in named.into_iter().flatten() {
-        let name: String = name.extract()?;
-        let values = column(&values, &name)?;
-        table.insert(name, values).map_err(refused)?;
+    for (name, column) in named_columns(named)? {
+        table.insert(name, column).map_err(refused)?;
     }
     Ok(table)
 }
@@ -185,23 +183,17 @@ impl Groom {
         strand: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let mut groom = self.0.clone();
-        for (name, values) in point.into_iter().flatten() {
-            let name: String = name.extract()?;
-            if values.is_none() {
-                groom.remove_point_attribute(&name);
-                continue;
+        for (name, column) in columns_or_none(point)? {
+            match column {
+                Some(column) => groom.insert_point_attribute(name, column).map_err(refused)?,
+                None => drop(groom.remove_point_attribute(&name)),
             }
-            let values = column(&values, &name)?;
-            groom.insert_point_attribute(name, values).map_err(refused)?;
         }
-        for (name, values) in strand.into_iter().flatten() {
-            let name: String = name.extract()?;
-            if values.is_none() {
-                groom.remove_strand_attribute(&name);
-                continue;
+        for (name, column) in columns_or_none(strand)? {
+            match column {
+                Some(column) => groom.insert_strand_attribute(name, column).map_err(refused)?,
+                None => drop(groom.remove_strand_attribute(&name)),
             }
-            let values = column(&values, &name)?;
-            groom.insert_strand_attribute(name, values).map_err(refused)?;
         }
         Ok(Self(groom))
     }

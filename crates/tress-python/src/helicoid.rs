@@ -7,11 +7,15 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Serialize;
 use tress::geometry::glam::DVec3;
-use tress::helicoid::{FillOptions, FitOptions, HelicoidGroom as Inner, Piece, Roots, Tracing};
+use tress::helicoid::{
+    FillOptions, FitOptions, FitReport, HelicoidGroom as Inner, Piece, Roots, Tracing, WispOptions,
+};
 
 use crate::arrays::{vectors, whole_counts};
 use crate::error::refused;
+use crate::frames;
 use crate::groom::Groom;
+use crate::helix_groom::HelixGroom;
 use crate::plain::{merged, report};
 use crate::space::letter;
 use crate::views::{columns, lend};
@@ -45,18 +49,13 @@ impl HelicoidGroom {
     /// Where hairs start, (strands, 3).
     #[getter]
     fn root_positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let roots = self.0.roots().iter();
-        let values: Vec<f64> = roots.flat_map(|root| root.position.to_array()).collect();
-        values.into_pyarray(py).reshape([self.0.len(), 3])
+        frames::positions(py, self.0.roots())
     }
 
     /// The root frames, (strands, 3, 3): matrices whose columns are tangent, normal and binormal.
     #[getter]
     fn root_frames<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let roots = self.0.roots().iter();
-        let values: Vec<f64> =
-            roots.flat_map(|root| root.axes.transpose().to_cols_array()).collect();
-        values.into_pyarray(py).reshape([self.0.len(), 3, 3])
+        frames::axes(py, self.0.roots())
     }
 
     /// `(kT, kN, kB, alpha)` of all pieces, (n, 4).
@@ -115,10 +114,17 @@ struct Words {
     pieces: Vec<usize>,
 }
 
+impl Words {
+    fn of(told: FitReport) -> Self {
+        let FitReport { kept, above_tolerance, frechet, rms, pieces, .. } = told;
+        Self { kept: kept.len(), above_tolerance, frechet, rms, pieces }
+    }
+}
+
 /// Fits chains of generalized helicoids to the strands of a groom.
 ///
 /// Args:
-///     groom: The polylines.
+///     groom: The polylines; or a HelixGroom, whose positions are then fitted.
 ///     method: "Newton", or "Simplex" as published.
 ///     pieces: {"UpTo": n} or {"Equal": n}; equally many for guides that `fill` mixes.
 ///     roll: How root frames stand: "Bend", or "Steady" for guides whose bends differ.
@@ -137,21 +143,18 @@ struct Words {
                          threshold=None, shortest=None, regularization=None)")]
 pub(crate) fn fit_helicoids<'py>(
     py: Python<'py>,
-    groom: &Bound<'_, Groom>,
+    groom: &Bound<'py, PyAny>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(HelicoidGroom, Bound<'py, PyAny>)> {
     let options: FitOptions = merged(py, &FitOptions::default(), options)?;
-    let groom = &groom.get().0;
-    let fitted = py.detach(|| tress::helicoid::fit(groom, &options)).map_err(refused)?;
-    let told = fitted.report;
-    let words = Words {
-        kept: told.kept.len(),
-        above_tolerance: told.above_tolerance,
-        frechet: told.frechet,
-        rms: told.rms,
-        pieces: told.pieces,
+    let fitted = if let Ok(helices) = groom.cast::<HelixGroom>() {
+        let helices = &helices.get().0;
+        py.detach(|| tress::helicoid::from_helices(helices, &options)).map_err(refused)?
+    } else {
+        let groom = &groom.cast::<Groom>()?.get().0;
+        py.detach(|| tress::helicoid::fit(groom, &options)).map_err(refused)?
     };
-    Ok((HelicoidGroom(fitted.hairs), report(py, &words)?))
+    Ok((HelicoidGroom(fitted.hairs), report(py, &Words::of(fitted.report))?))
 }
 
 /// Polylines along helicoids, points even in arc length.
@@ -177,6 +180,54 @@ pub(crate) fn sample_helicoids(
     let count = |i: usize| counts.get(i).copied().unwrap_or(0);
     let sampled = py.detach(|| tress::helicoid::sample_counts(hairs, count, Tracing::default()));
     sampled.map(Groom).map_err(refused)
+}
+
+/// Super-helices that follow helicoids: each piece cut into elements of equal length.
+///
+/// Args:
+///     hairs: The helicoids.
+///     per_piece: Elements a piece; twice as many are four times as near.
+#[pyfunction]
+#[pyo3(signature = (hairs, *, per_piece=20))]
+pub(crate) fn to_helices(
+    py: Python<'_>,
+    hairs: &Bound<'_, HelicoidGroom>,
+    per_piece: usize,
+) -> PyResult<HelixGroom> {
+    let hairs = &hairs.get().0;
+    let helices = py.detach(|| tress::helicoid::to_helices(hairs, per_piece));
+    helices.map(HelixGroom).map_err(refused)
+}
+
+/// Spreads every hair to a wisp of the hairs that its field of directions knows beside it.
+///
+/// Args:
+///     guides: The helicoids.
+///     hairs: Hairs of a wisp, the guide first.
+///     radius: Radius of the disc of roots.
+///     fanning, frizz: How far hairs turn about their roots, and segments turn, in radians.
+///     profile: Factors of the distance from the guide, evenly from root to tip.
+///     waviness: Waves about every hair: {"amplitude": their radius, "frequency": radians in a unit
+///         of length, "fade_in": the arc length over which they grow}.
+///     points: Points of a hair.
+///     seed: The same seed makes the same wisps.
+///
+/// Returns:
+///     A Groom whose attribute "group" tells the wisps apart.
+#[pyfunction]
+#[pyo3(signature = (guides, *, seed=0, **options),
+       text_signature = "(guides, *, hairs=256, radius=0.05, fanning=0.0, frizz=0.0, profile=None, \
+                         waviness=None, points=40, seed=0)")]
+pub(crate) fn wisps(
+    py: Python<'_>,
+    guides: &Bound<'_, HelicoidGroom>,
+    seed: u64,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Groom> {
+    let options: WispOptions = merged(py, &WispOptions::default(), options)?;
+    let guides = &guides.get().0;
+    let spread = py.detach(|| tress::helicoid::wisps(guides, &options, Tracing::default(), seed));
+    spread.map(Groom).map_err(refused)
 }
 
 /// Fills in hairs between guides, whose helicoids are mixed by distance.

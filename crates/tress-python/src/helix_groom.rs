@@ -1,14 +1,15 @@
 //! `tress.HelixGroom`: super-helices as numpy arrays.
 
 use numpy::ndarray::{ArrayView1, s};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tress::geometry::glam::{DMat3, DVec3};
 use tress::geometry::{Attributes, Element, Frame, Groom as Polylines, HelixGroom as Inner, Kept};
 
-use crate::arrays::{Shaped, column, cut, floats, indices, misshapen, scalars, vectors};
+use crate::arrays::{Shaped, cut, floats, indices, misshapen, named_columns, scalars, vectors};
 use crate::error::{TressError, refused};
+use crate::frames;
 use crate::groom::{Groom, NewArguments, attributes, new_arguments, place};
 use crate::space::{Unit, letter, space};
 use crate::views::{columns, lend, table};
@@ -41,7 +42,7 @@ use crate::views::{columns, lend, table};
 pub(crate) struct HelixGroom(pub(crate) Inner);
 
 /// Positions and frames: (n, 3) and (n, 3, 3).
-type Frames<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>);
+type Joints<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>);
 
 /// Numbers from one element to the next in memory: three curvatures and a length.
 const STRIDE: usize = 4;
@@ -50,7 +51,7 @@ fn numbers(groom: &HelixGroom) -> &[f64] {
     bytemuck::cast_slice(groom.0.elements().points())
 }
 
-fn frames(value: &Bound<'_, PyAny>) -> PyResult<Vec<DMat3>> {
+fn root_axes(value: &Bound<'_, PyAny>) -> PyResult<Vec<DMat3>> {
     let Shaped { shape, values } = floats(value, "root_frames")?;
     match shape[..] {
         [_, 3, 3] | [0] => {
@@ -114,7 +115,7 @@ impl HelixGroom {
         kept: Option<&Bound<'_, Groom>>,
     ) -> PyResult<Self> {
         let positions = vectors(root_positions, "root_positions")?;
-        let axes = frames(root_frames)?;
+        let axes = root_axes(root_frames)?;
         if positions.len() != axes.len() {
             let (positions, axes) = (positions.len(), axes.len());
             let message = format!("{axes} root frames for {positions} root positions");
@@ -161,18 +162,13 @@ impl HelixGroom {
     /// Where strands start, (strands, 3).
     #[getter]
     fn root_positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let roots = self.0.roots().iter();
-        let values: Vec<f64> = roots.flat_map(|root| root.position.to_array()).collect();
-        values.into_pyarray(py).reshape([self.0.len(), 3])
+        frames::positions(py, self.0.roots())
     }
 
     /// The root frames, (strands, 3, 3): matrices with the columns t, u, v.
     #[getter]
     fn root_frames<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let roots = self.0.roots().iter();
-        let values: Vec<f64> =
-            roots.flat_map(|root| root.axes.transpose().to_cols_array()).collect();
-        values.into_pyarray(py).reshape([self.0.len(), 3, 3])
+        frames::axes(py, self.0.roots())
     }
 
     /// Which strands are kept as polylines.
@@ -240,15 +236,10 @@ impl HelixGroom {
     }
 
     /// The positions and frames of the joints of one strand: (joints, 3) and (joints, 3, 3).
-    fn joints<'py>(&self, py: Python<'py>, strand: isize) -> PyResult<Frames<'py>> {
+    fn joints<'py>(&self, py: Python<'py>, strand: isize) -> PyResult<Joints<'py>> {
         let strand = self.0.strand(place(strand, self.0.len())?);
-        let frames: Vec<Frame> = strand.joints().collect();
-        let n = frames.len();
-        let positions: Vec<f64> = frames.iter().flat_map(|f| f.position.to_array()).collect();
-        let axes: Vec<f64> =
-            frames.iter().flat_map(|f| f.axes.transpose().to_cols_array()).collect();
-        let positions = positions.into_pyarray(py).reshape([n, 3])?;
-        Ok((positions, axes.into_pyarray(py).reshape([n, 3, 3])?))
+        let joints: Vec<Frame> = strand.joints().collect();
+        Ok((frames::positions(py, &joints)?, frames::axes(py, &joints)?))
     }
 
     /// The same strands with other curvatures, lengths or both, of as many elements.
@@ -287,15 +278,11 @@ impl HelixGroom {
         joint: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let mut groom = self.0.clone();
-        for (name, values) in strand.into_iter().flatten() {
-            let name: String = name.extract()?;
-            let values = column(&values, &name)?;
-            groom.insert_strand_attribute(name, values).map_err(refused)?;
+        for (name, column) in named_columns(strand)? {
+            groom.insert_strand_attribute(name, column).map_err(refused)?;
         }
-        for (name, values) in joint.into_iter().flatten() {
-            let name: String = name.extract()?;
-            let values = column(&values, &name)?;
-            groom.insert_joint_attribute(name, values).map_err(refused)?;
+        for (name, column) in named_columns(joint)? {
+            groom.insert_joint_attribute(name, column).map_err(refused)?;
         }
         Ok(Self(groom))
     }

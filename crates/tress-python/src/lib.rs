@@ -9,8 +9,10 @@
 //! |---|---|
 //! | `groom`, `helix_groom` | the classes `Groom` and `HelixGroom` |
 //! | `fit`, `edit`, `sculpt`, `switchback`, `grow`, `analysis`, `picture`, `files` | functions |
+//! | `centerline`, `inverse` | functions: the lines that coils wind about, operators found |
 //! | `helicoid`, `procedural` | the classes `HelicoidGroom` and `ProceduralGroom`, and functions |
-//! | `arrays`, `views` | arrays in, checked and copied once; arrays out, views of a groom's memory |
+//! | `arrays` | arrays in, checked and copied once |
+//! | `views`, `frames` | arrays out: views of a groom's memory, and positions and axes of frames |
 //! | `plain`, `space`, `progress`, `error` | options and reports, units, progress, exceptions |
 //!
 //! **Invariant**: a groom that Python holds never changes, so the arrays it hands out may share its
@@ -19,14 +21,17 @@
 mod analysis;
 mod animation;
 mod arrays;
+mod centerline;
 mod edit;
 mod error;
 mod files;
 mod fit;
+mod frames;
 mod groom;
 mod grow;
 mod helicoid;
 mod helix_groom;
+mod inverse;
 mod picture;
 mod plain;
 mod procedural;
@@ -46,11 +51,13 @@ mod _tress {
     #[pymodule_export]
     use super::animation::{Animation, write as write_animation};
     #[pymodule_export]
+    use super::centerline::centerlines;
+    #[pymodule_export]
     use super::edit::{blend, groups, recoil, ruffle};
     #[pymodule_export]
     use super::error::TressError;
     #[pymodule_export]
-    use super::files::{read, write, write_unreal};
+    use super::files::{read, read_mesh, write, write_unreal};
     #[pymodule_export]
     use super::fit::{fit, sample};
     #[pymodule_export]
@@ -58,9 +65,13 @@ mod _tress {
     #[pymodule_export]
     use super::grow::{grow, grow_presets, scatter};
     #[pymodule_export]
-    use super::helicoid::{HelicoidGroom, fill, fit_helicoids, sample_helicoids};
+    use super::helicoid::{
+        HelicoidGroom, fill, fit_helicoids, sample_helicoids, to_helices, wisps,
+    };
     #[pymodule_export]
     use super::helix_groom::HelixGroom;
+    #[pymodule_export]
+    use super::inverse::fit_procedural;
     #[pymodule_export]
     use super::picture::{encode, render};
     #[pymodule_export]

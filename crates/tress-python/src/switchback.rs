@@ -5,12 +5,13 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tress::switchback::{
-    InsertOptions, Material, Placing, Profile, Switchback, material_curvature,
+    DoubleSwitchback, InsertOptions, Material, Placing, Profile, Ritz, RitzOptions, Switchback,
+    material_curvature,
 };
 
 use crate::arrays::scalars;
 use crate::edit::numbers;
-use crate::error::refused;
+use crate::error::{TressError, refused};
 use crate::helix_groom::HelixGroom;
 use crate::plain::report;
 
@@ -69,22 +70,39 @@ pub(crate) fn insert_switchbacks<'py>(
 ///         where positive.
 ///     arc_lengths: Where, from the middle of the switchback, in units of the rest radius.
 ///     poisson_ratio, rest_twist: Of the hair.
+///     method: "exact", the equilibrium solved; "double", that of two switchbacks at once, an S
+///         that gives the first hand back; "ritz", the published approximation of the first.
 ///
 /// Returns:
 ///     `(k0, k1, k2)` at each arc length, (n, 3).
 #[pyfunction]
-#[pyo3(signature = (v, arc_lengths, *, poisson_ratio=0.4, rest_twist=0.0))]
+#[pyo3(signature = (v, arc_lengths, *, poisson_ratio=0.4, rest_twist=0.0, method="exact"))]
 pub(crate) fn switchback<'py>(
     py: Python<'py>,
     v: f64,
     arc_lengths: &Bound<'_, PyAny>,
     poisson_ratio: f64,
     rest_twist: f64,
+    method: &str,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let arc_lengths = scalars(arc_lengths, "arc_lengths")?;
     let material = Material { poisson_ratio, rest_twist };
-    let shape = py.detach(|| Switchback::new(v, &material)).map_err(refused)?;
-    let at = |&s: &f64| material_curvature(shape.curvature(s)).to_array();
-    let values: Vec<f64> = arc_lengths.iter().flat_map(at).collect();
-    values.into_pyarray(py).reshape([arc_lengths.len(), 3])
+    let curvatures = py.detach(|| match method {
+        "exact" => Ok(along(&Switchback::new(v, &material).map_err(refused)?, &arc_lengths)),
+        "double" => Ok(along(&DoubleSwitchback::new(v, &material).map_err(refused)?, &arc_lengths)),
+        "ritz" => {
+            let ritz = Ritz::new(v, &material, &RitzOptions::default()).map_err(refused)?;
+            Ok(along(&ritz, &arc_lengths))
+        }
+        other => Err(TressError::new_err(format!(
+            "method: expected \"exact\", \"double\" or \"ritz\", found {other:?}"
+        ))),
+    })?;
+    curvatures.into_pyarray(py).reshape([arc_lengths.len(), 3])
+}
+
+/// Material curvatures at arc lengths, row after row.
+fn along(profile: &impl Profile, arc_lengths: &[f64]) -> Vec<f64> {
+    let at = |&s: &f64| material_curvature(profile.curvature(s)).to_array();
+    arc_lengths.iter().flat_map(at).collect()
 }

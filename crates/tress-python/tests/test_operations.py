@@ -392,6 +392,13 @@ def test_a_switchback_in_equilibrium():
     assert curvatures[1, 2] == pytest.approx(0.4976314802, abs=1e-8)
     with pytest.raises(tress.TressError):
         tress.switchback(1.5, [0.0])
+    near = np.abs(tress.switchback(0.5, [-80.0, 0.0, 80.0], method="ritz") - curvatures)
+    assert near[[0, 2]].max() < 0.01 < near[1].max(), "the approximation is off in the middle"
+    # Two at once: the coil behind them is the one before.
+    double = tress.switchback(0.6, [-200.0, 200.0], rest_twist=0.2, method="double")
+    assert double[0, 0] == pytest.approx(double[1, 0], abs=1e-6)
+    with pytest.raises(tress.TressError, match="triple"):
+        tress.switchback(0.5, [0.0], method="triple")
 
 
 def test_helicoids_are_fitted_sampled_and_filled_in():
@@ -407,6 +414,20 @@ def test_helicoids_are_fitted_sampled_and_filled_in():
     assert hairs.root_frames.shape == (3, 3, 3) and hairs.offsets.tolist() == [0, 2, 4, 6]
     back = tress.sample_helicoids(hairs, counts=guides.counts)
     assert np.abs(back.positions - guides.positions).max() < 0.1
+    helices = tress.to_helices(hairs, per_piece=30)
+    assert helices.counts.tolist() == [60] * 3 and helices.unit == 0.01
+    along = tress.sample(helices, points=40), tress.sample_helicoids(hairs, points=40)
+    assert np.abs(along[0].positions - along[1].positions).max() < 1e-3
+    of_helices, _ = tress.fit_helicoids(helices, pieces={"Equal": 2}, roll="Steady")
+    assert len(of_helices) == 3
+    spread = tress.wisps(hairs, hairs=5, radius=0.1, points=12, seed=2)
+    assert spread.counts.tolist() == [12] * 15
+    assert spread.strand_attributes["group"].tolist() == [0] * 5 + [1] * 5 + [2] * 5
+    roots = spread.positions[::12].reshape(3, 5, 3)
+    from_root = np.linalg.norm(roots - roots[:, :1], axis=2).ravel()
+    assert from_root[::5].max() == 0.0 and 0.0 < from_root.max() <= 0.1
+    wavy = {"amplitude": 0.05, "frequency": 12.0}
+    assert tress.wisps(hairs, hairs=5, points=12, waviness=wavy) != spread
     roots = np.array([[1.0, 0, 0], [0, 0, 1.0]])
     filled, replaced = tress.fill(hairs, roots, exponent=2.0)
     assert len(filled) == 2 and replaced.tolist() == []
@@ -415,6 +436,8 @@ def test_helicoids_are_fitted_sampled_and_filled_in():
     for call in (
         lambda: tress.fit_helicoids(guides, tolerance=-1.0),
         lambda: tress.sample_helicoids(hairs, points=1),
+        lambda: tress.to_helices(hairs, per_piece=0),
+        lambda: tress.wisps(hairs, radius=-1.0),
         lambda: tress.fill(hairs, [[np.nan, 0, 0]]),
         lambda: tress.fill(hairs, roots, exponent=-1.0),
     ):
@@ -424,6 +447,8 @@ def test_helicoids_are_fitted_sampled_and_filled_in():
         lambda: tress.sample_helicoids(hairs),
         lambda: tress.fit_helicoids(guides, tolerence=1.0),
         lambda: tress.fill(hairs, roots, normals=roots),
+        lambda: tress.wisps(hairs, waviness={"amplitud": 1.0}),
+        lambda: tress.fit_helicoids(roots),
     ):
         with pytest.raises(TypeError):
             call()
@@ -457,6 +482,58 @@ def test_a_procedural_groom_is_built_the_same_every_time(tmp_path):
         tress.ProceduralGroom.read(tmp_path / "none.ron")
 
 
+def test_operators_are_found_for_strands_that_have_none():
+    rng = np.random.default_rng(1)
+    guides = np.zeros((6, 24, 3))
+    guides[:, :, 1] = -np.linspace(0, 3, 24)
+    guides[:, :, 0] += np.arange(6)[:, None]
+    roots = rng.random((240, 3)) * [5, 0, 1]
+    made = tress.ProceduralGroom(guides, roots, [{"Clump": {"profile": 1.5}}], seed=3)
+    target, shares = made.build(), []
+    options = {"guides": 12, "points": 24, "seed": 2, "guide": {"steps": 2}}
+    options |= {"parameters": {"rounds": 1, "steps": 3}, "numbers": {"steps": 3}}
+    start = [{"Clump": {"profile": 1.0}}]
+    found, report = tress.fit_procedural(target, start, progress=shares.append, **options)
+    assert report["strands"] == 240 and report["left_out"] == 0
+    assert len(found.build()) == 240 and [*found.operators[0]] == ["Clump"]
+    stages = [stage for stage, _loss in report["losses"]]
+    assert len(set(stages)) > 1 and np.isfinite([loss for _stage, loss in report["losses"]]).all()
+    assert shares[-1] == 1.0 and shares == sorted(shares)
+    assert tress.fit_procedural(target, start, **options)[0].build() == found.build()
+    with pytest.raises(tress.TressError):
+        tress.fit_procedural(target, start, guides=1000)
+    with pytest.raises(tress.TressError):
+        tress.fit_procedural(target, [{"Perm": {}}])
+    with pytest.raises(TypeError):
+        tress.fit_procedural(target, start, guide={"step": 2})
+
+
+def test_centerlines_are_what_coils_wind_about(coils):
+    lines, turns = tress.centerlines(coils)
+    assert np.array_equal(lines.offsets, coils.offsets)
+    assert turns[:4] == pytest.approx(10, abs=0.3) and np.isnan(turns[4])
+    for i in range(4):
+        assert np.hypot(lines[i][:, 0] - 3.0 * i, lines[i][:, 2]).max() < 0.05
+    assert np.array_equal(lines[4], coils[4])
+    same, known = tress.centerlines(coils, turns=[10, 10, 0, 10, 0])
+    assert np.array_equal(same[2], coils[2]) and known[0] == 10
+    with pytest.raises(tress.TressError, match="expected 5"):
+        tress.centerlines(coils, turns=[10])
+
+
+def test_meshes_are_read(tmp_path):
+    square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
+    (tmp_path / "square.obj").write_text(square)
+    vertices, triangles, density = tress.read_mesh(tmp_path / "square.obj")
+    assert vertices.shape == (4, 3) and triangles.tolist() == [[0, 1, 2], [0, 2, 3]]
+    assert density is None
+    assert tress.scatter(vertices, triangles, 10).shape == (10, 3)
+    with pytest.raises(FileNotFoundError):
+        tress.read_mesh(tmp_path / "none.ply")
+    with pytest.raises(tress.TressError):
+        tress.read_mesh(tmp_path / "none.abc")
+
+
 def test_grooms_are_compared(coils):
     same = tress.compare(coils, coils)
     assert same["nearest"]["greatest"] == 0.0 and same["by_index"]["frechet"]["rms"] == 0.0
@@ -466,7 +543,7 @@ def test_grooms_are_compared(coils):
     assert tress.compare(coils, tress.Groom([]))["nearest"] is None
 
 
-@pytest.mark.parametrize("extension", ["abc"])
+@pytest.mark.parametrize("extension", ["abc", "usdc", "usd"])
 def test_frames_go_out_and_come_in(coils, tmp_path, extension):
     path = tmp_path / f"wind.{extension}"
     frames = [coils.with_positions(coils.positions + [0, 0, step]) for step in range(3)]

@@ -117,6 +117,9 @@ class HelixGroom:
     def joined(self, other: HelixGroom) -> HelixGroom: ...
 
 def read(path: Path) -> Groom | HelixGroom: ...
+def read_mesh(
+    path: Path,
+) -> tuple[Floats, NDArray[np.uint32], Floats | None]: ...
 def write(
     path: Path,
     groom: Groom | HelixGroom,
@@ -172,6 +175,7 @@ def sample(
     spacing: float | None = None,
     per_turn: float | None = None,
 ) -> Groom: ...
+def centerlines(groom: Groom, *, turns: ArrayLike | None = None) -> tuple[Groom, Floats]: ...
 def groups(
     helices: HelixGroom,
     *,
@@ -304,6 +308,7 @@ def switchback(
     *,
     poisson_ratio: float = 0.4,
     rest_twist: float = 0.0,
+    method: Literal["exact", "double", "ritz"] = "exact",
 ) -> Floats: ...
 
 class HelicoidGroom:
@@ -328,7 +333,7 @@ class HelicoidGroom:
     def __len__(self) -> int: ...
 
 def fit_helicoids(
-    groom: Groom,
+    groom: Groom | HelixGroom,
     *,
     method: Literal["Newton", "Simplex"] | None = None,
     pieces: Mapping[str, int] | None = None,
@@ -340,6 +345,19 @@ def fit_helicoids(
 ) -> tuple[HelicoidGroom, Report]: ...
 def sample_helicoids(
     hairs: HelicoidGroom, *, points: int | None = None, counts: ArrayLike | None = None
+) -> Groom: ...
+def to_helices(hairs: HelicoidGroom, *, per_piece: int = 20) -> HelixGroom: ...
+def wisps(
+    guides: HelicoidGroom,
+    *,
+    hairs: int = 256,
+    radius: float = 0.05,
+    fanning: float = 0.0,
+    frizz: float = 0.0,
+    profile: ArrayLike | None = None,
+    waviness: Mapping[str, float] | None = None,
+    points: int = 40,
+    seed: int = 0,
 ) -> Groom: ...
 def fill(
     guides: HelicoidGroom,
@@ -374,6 +392,24 @@ class ProceduralGroom:
     def guides(self) -> Groom: ...
     def with_operators(self, operators: Sequence[Mapping[str, Any]] | str) -> ProceduralGroom: ...
 
+def fit_procedural(
+    groom: Groom,
+    operators: Sequence[Mapping[str, Any]] | str,
+    *,
+    guides: int | None = None,
+    operator_guides: int | None = None,
+    points: int | None = None,
+    neighbors: int | None = None,
+    own_weights: bool | None = None,
+    seed: int | None = None,
+    root_weight: float | None = None,
+    smoothing: Mapping[str, Any] | None = None,
+    guide: Mapping[str, Any] | None = None,
+    parameters: Mapping[str, Any] | None = None,
+    numbers: Mapping[str, Any] | None = None,
+    flaws: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> tuple[ProceduralGroom, Report]: ...
 def summarize(helices: HelixGroom) -> Report: ...
 def compare(a: Groom, b: Groom) -> Report: ...
 def analyze(groom: Groom | HelixGroom) -> dict[str, Any]: ...
