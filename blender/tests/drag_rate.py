@@ -37,6 +37,7 @@ def drag(empties, label):
         seconds.append(time.perf_counter() - start)
         work.append(time.process_time() - busy)
     p50, p99 = np.quantile(seconds, [0.5, 0.99]) * 1e3
+    print(f"METRIC:blender_drag_{label}_rate:{1e3 / p50:.1f}:frames a second")
     print(f"METRIC:blender_drag_{label}_p50_ms:{p50:.2f}:ms")
     print(f"METRIC:blender_drag_{label}_p99_ms:{p99:.2f}:ms")
     # What all cores together worked: the figure to compare where others use the machine too.
