@@ -1,11 +1,14 @@
-//! The five operators over many strands, alone and in a chain, and the chain's derivative.
+//! The five operators over many strands, alone and in a chain, and the chain's derivative; tress's
+//! own operators over coils.
 
 use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec3;
+use tress_edit::{RecoilOptions, RuffleOptions};
 use tress_procedural::{
-    Bend, Bound, Chain, Clump, Convention, Curl, EvenStrands, Frizz, Operator, Scale, draw,
+    Bend, Bound, Chain, Clump, Convention, Curl, EvenStrands, Frizz, Operator, Scale, Skip,
+    Straighten, Switchback, draw,
 };
 
 const POINTS: usize = 100;
@@ -32,15 +35,12 @@ fn five() -> Vec<Operator> {
     ]
 }
 
-fn chains(c: &mut Criterion) {
-    let (count, guides) = (100_000, 500);
-    let (given, guides) = (strands(count), strands(guides));
+/// Each chain over the same strands.
+fn chains(c: &mut Criterion, name: &str, given: &EvenStrands, cases: Vec<(&str, Vec<Operator>)>) {
+    let (count, guides) = (given.len(), strands(500));
     let operator_of: Vec<u32> = (0..).take(count).map(|i: u32| i % 500).collect();
-    let mut group = c.benchmark_group("operators");
+    let mut group = c.benchmark_group(name);
     group.sample_size(10).throughput(Throughput::Elements(count as u64));
-    let mut cases: Vec<(&str, Vec<Operator>)> =
-        five().into_iter().map(|operator| (operator.name(), vec![operator])).collect();
-    cases.push(("all five", five()));
     for (name, operators) in cases {
         let numbers = draw(&operators, count, guides.len(), 1);
         let chain = Chain { convention: Convention::Paper, operators };
@@ -51,6 +51,35 @@ fn chains(c: &mut Criterion) {
         });
     }
     group.finish();
+}
+
+fn named(operators: Vec<Operator>) -> Vec<(&'static str, Vec<Operator>)> {
+    operators.into_iter().map(|operator| (operator.name(), vec![operator])).collect()
+}
+
+fn published(c: &mut Criterion) {
+    let mut cases = named(five());
+    cases.push(("all five", five()));
+    chains(c, "operators", &strands(100_000), cases);
+}
+
+fn own(c: &mut Criterion) {
+    let count = 2_000;
+    let operators = vec![Operator::Curl(Curl { radius: 0.3, frequency: 0.4, ..Curl::default() })];
+    let numbers = draw(&operators, count, 1, 1);
+    let chain = Chain { convention: Convention::Paper, operators };
+    let guides = strands(1);
+    let bound = Bound { guides: &guides, operator_of: &vec![0; count], numbers: &numbers };
+    let mut coils = strands(count);
+    chain.apply(&mut coils, &bound, 0).expect("a sound chain");
+    let operators = vec![
+        Operator::Straighten(Straighten { amount: 0.5, span: 0.25 }),
+        Operator::Skip(Skip { probability: 0.3, ..Skip::default() }),
+        Operator::Recoil(RecoilOptions { radius: 0.8, ..RecoilOptions::default() }),
+        Operator::Ruffle(RuffleOptions { probability: 0.1, ..RuffleOptions::default() }),
+        Operator::Switchback(Switchback::default()),
+    ];
+    chains(c, "own", &coils, named(operators));
 }
 
 fn derivative(c: &mut Criterion) {
@@ -66,5 +95,5 @@ fn derivative(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, chains, derivative);
+criterion_group!(benches, published, own, derivative);
 criterion_main!(benches);

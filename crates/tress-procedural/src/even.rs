@@ -31,6 +31,13 @@ pub enum EvenError {
         points_each: usize,
     },
     /// The points do not divide into strands.
+    ///
+    /// ```
+    /// # use glam::DVec3;
+    /// # use tress_procedural::{EvenError, EvenStrands};
+    /// let error = EvenStrands::new(2, vec![DVec3::ZERO; 5]);
+    /// assert_eq!(error, Err(EvenError::Ragged { points: 5, points_each: 2 }));
+    /// ```
     #[error("{points} points do not make strands of {points_each}")]
     Ragged {
         /// How many points there are.
@@ -82,8 +89,8 @@ impl EvenStrands {
     }
 
     /// Every strand of a groom resampled to `points_each` points even in arc length, and which
-    /// strand of the groom each is; strands with a [defect](tress_geometry::polyline::Defect)
-    /// are left out.
+    /// strand of the groom each is. Strands that have as many points keep them; those with a
+    /// [defect](tress_geometry::polyline::Defect) are left out.
     ///
     /// # Errors
     ///
@@ -226,11 +233,5 @@ mod tests {
         assert_eq!(even.strand(0)[1], DVec3::X);
         assert_eq!(even.strand(0)[4], DVec3::new(1.0, 3.0, 0.0));
         assert_eq!(EvenStrands::resampled(&groom, 0), Err(EvenError::TooFew { points_each: 0 }));
-    }
-
-    #[test]
-    fn points_that_do_not_divide_are_refused() {
-        let error = EvenStrands::new(2, vec![DVec3::ZERO; 5]);
-        assert_eq!(error, Err(EvenError::Ragged { points: 5, points_each: 2 }));
     }
 }

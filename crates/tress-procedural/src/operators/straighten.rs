@@ -4,9 +4,9 @@
 //!
 //! `e'_j = l_j q_j / |q_j|`, `q_j = (1 - t) e_j / l_j + t D_j`,
 //!
-//! `D_j` the direction from the point `h` before to the point `h` behind the segment, as far as the
-//! strand reaches. Coils shorter than the surroundings unwind along the line they wind about, and
-//! the strand reaches as much farther as ironed hair does.
+//! `D_j` the direction from the point `h` before to the point `h` behind the segment; near the ends
+//! it is that of as many points at the end. Coils shorter than the surroundings unwind along the
+//! line they wind about, and the strand reaches as much farther as ironed hair does.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -50,7 +50,9 @@ impl Straighten {
     /// The ends of the surroundings of segment `j` of a strand of `n` points.
     fn surroundings(&self, j: usize, n: usize) -> (usize, usize) {
         let reach = self.reach(n);
-        (j.saturating_sub(reach), (j + 1 + reach).min(n - 1))
+        let segments = (2 * reach + 1).min(n - 1);
+        let first = j.saturating_sub(reach).min(n - 1 - segments);
+        (first, first + segments)
     }
 
     pub(super) fn apply(&self, scratch: &mut Scratch) {

@@ -123,6 +123,12 @@ fn straightening_a_coil_wholly_leaves_a_line() {
     let out = moved(&straighten, Convention::Paper, [0.0; 2], &coil, &coil);
     let length: f64 = segments(&coil).iter().sum();
     assert!(0.99 * length < out[0].distance(out[399]));
+    // Its ends too follow the axis, where the surroundings are two turns or so.
+    let straighten = Operator::Straighten(Straighten { amount: 1.0, span: 0.32 });
+    let out = moved(&straighten, Convention::Paper, [0.0; 2], &coil, &coil);
+    for j in [0, 200, 398] {
+        assert!((out[j + 1] - out[j]).angle_between(DVec3::Z) < 0.2, "segment {j}");
+    }
 }
 
 #[test]
