@@ -40,3 +40,15 @@ impl Quantiles {
         Some(Self { min: at(0), lower: at(1), median: at(2), upper: at(3), max: at(4) })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quartiles_lie_between_values_where_there_are_few() {
+        let q = Quantiles::of([3.0, 1.0]).expect("two numbers");
+        let expected = Quantiles { min: 1.0, lower: 1.5, median: 2.0, upper: 2.5, max: 3.0 };
+        assert_eq!(q, expected);
+    }
+}

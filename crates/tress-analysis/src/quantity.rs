@@ -133,8 +133,8 @@ pub fn quantity(groom: &HelixGroom, quantity: Quantity) -> QuantityValues {
 
 impl Analysis {
     /// The values of a quantity, by the strand or by the place (a point of a polyline, a joint of a
-    /// super-helix). NaN for strands that are no curves, and
-    /// for the radius of those that do not coil.
+    /// super-helix). NaN for strands that are no curves, and for the radius of those that do not
+    /// coil.
     ///
     /// ```
     /// use tress_analysis::{Analysis, Quantity, QuantityValues};
@@ -147,9 +147,8 @@ impl Analysis {
     /// let QuantityValues::Joints(beta) = analysis.values(Quantity::Beta) else { panic!() };
     /// assert_eq!(beta.len(), 3);
     /// assert!((beta[1] - 1.0).abs() < 1e-2);
-    /// let radius =
-    /// QuantityValues::Strands(vec![analysis.strands[0].unwrap().coil_radius.unwrap()]);
-    /// assert_eq!(analysis.values(Quantity::Radius), radius);
+    /// let QuantityValues::Strands(radius) = analysis.values(Quantity::Radius) else { panic!() };
+    /// assert!((radius[0] - 0.5).abs() < 1e-2);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]

@@ -61,6 +61,19 @@ mod tests {
     }
 
     #[test]
+    fn a_steady_change_is_neither_hurried_nor_delayed() {
+        let element = |i: u32| Element {
+            curvature: DVec3::new(0.3, 2.0 + 0.002 * f64::from(i), 0.0),
+            length: 0.2,
+        };
+        let elements: Vec<Element> = (0..100).map(element).collect();
+        let smooth = smoothed(&elements);
+        for (a, b) in elements[20..80].iter().zip(&smooth[20..80]) {
+            assert!((a.curvature - b.curvature).length() < 1e-3, "{a:?} {b:?}");
+        }
+    }
+
+    #[test]
     fn elements_without_length_keep_their_curvature() {
         let element = Element { curvature: DVec3::X, length: 0.0 };
         assert_eq!(smoothed(&[element]), [element]);

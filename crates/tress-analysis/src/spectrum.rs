@@ -90,8 +90,7 @@ fn middle(line: usize) -> f64 {
 }
 
 impl Stations {
-    /// Power of the unit tangent, less its mean, at whole numbers of cycles; and the strand's
-    /// length.
+    /// Power of the unit tangent less its mean at whole numbers of cycles, and the length.
     pub(crate) fn tangent_power<'a>(&self, spectra: &'a mut Spectra) -> (&'a [f64], f64) {
         let steps = self.positions.windows(2).map(|p| (p[1] - p[0]) / self.spacing);
         let mut tangents: Vec<DVec3> = steps.collect();

@@ -106,25 +106,20 @@ fn strength(winding: &Winding, stretch: &Stretch) -> Option<f64> {
 
 /// The mean circularity over the turns of a stretch that are next to its end or beginning.
 fn side(winding: &Winding, stretch: &Stretch, at_end: bool) -> Option<f64> {
-    let (mut turns, mut range) = (0.0, stretch.end..stretch.end);
-    let stations: Box<dyn Iterator<Item = usize>> = if at_end {
-        Box::new((stretch.first..stretch.end).rev())
-    } else {
-        Box::new(stretch.first..stretch.end)
-    };
-    let mut seen = Vec::new();
-    for k in stations {
-        turns += winding.rate[k] * winding.spacing / TAU;
+    let inward = |i: usize| if at_end { stretch.end - 1 - i } else { stretch.first + i };
+    let (mut turns, mut seen, mut sum) = (0.0, 0.0, 0.0);
+    for k in (0..stretch.end - stretch.first).map(inward) {
+        let turn = winding.rate[k] * winding.spacing / TAU;
+        turns += turn;
         if SEEN_TURNS < turns {
             break;
         }
         if BLURRED_TURNS <= turns {
-            seen.push(k);
+            seen += turn;
+            sum += turn * winding.circularity[k].abs();
         }
     }
-    range.start = *seen.iter().min()?;
-    range.end = *seen.iter().max()? + 1;
-    let (_, mean) = mean_circularity(winding, range);
+    let mean = if 0.0 < seen { sum / seen } else { 0.0 };
     (LEAST_CIRCULARITY <= mean).then_some(mean)
 }
 

@@ -126,3 +126,13 @@ fn threads_do_not_change_a_bit() {
     };
     assert_eq!(on(1), on(3));
 }
+
+#[test]
+fn a_summary_counts_coils_waves_and_what_is_neither() {
+    let wave = (0..=90).map(|i| 0.1 * f64::from(i));
+    let wave = wave.map(|t| DVec3::new(t, 0.3 * (TAU * t).sin(), 0.0)).collect();
+    let line = (0..9).map(|i| DVec3::X * f64::from(i)).collect();
+    let summary = Analysis::of(&groom(&[varied(12), wave, line])).summary();
+    assert_eq!((summary.measured, summary.coiled, summary.waves), (3, 2, 1));
+    assert_eq!((summary.right_handed, summary.left_handed, summary.switchbacks), (1, 0, 0));
+}

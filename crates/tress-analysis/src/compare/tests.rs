@@ -79,3 +79,12 @@ fn grooms_without_points_are_compared_too() {
     let [none, one] = [discrete_frechet(&[], &[]), discrete_frechet(&[DVec3::X], &[])];
     assert!(none.abs() < 1e-300 && one.is_infinite());
 }
+
+#[test]
+fn either_walker_may_wait_for_the_other() {
+    let long = [0.0, 1.0, 2.0, 3.0].map(|x| DVec3::X * x);
+    let short = [long[0], long[3]];
+    for (a, b) in [(&long[..], &short[..]), (&short[..], &long[..])] {
+        assert!((discrete_frechet(a, b) - 1.0).abs() < 1e-12);
+    }
+}
