@@ -9,8 +9,8 @@
 //!
 //! What is mixed is said by [`Mixing`]. As published it is `(kT, kN, kB, alpha)`, after every guide
 //! is given a positive `kT`. But `alpha` is a quotient: two hairs that bend by the same little to
-//! either side of `E_N`'s plane may have any two. Their bends `(kT, alpha kT)` are the vectors that
-//! a mean makes sense of, in frames turned about their tangents to agree; that is the default.
+//! either side of `E_N`'s plane may have any two, and all four depend on how the frame stands about
+//! the tangent. The default mixes what does not, and puts it together again (`Mixing::Bends`).
 
 mod mix;
 mod rotation;
@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use tress_geometry::{Column, Frame, Strands};
 
-use crate::fit::hold;
+use crate::fit::{hold, mean_curvature};
 use crate::{HelicoidGroom, PHelicoid, Piece, TraceError, Tracing, positive_tangential};
 use mix::Guide;
 pub use rotation::mean_rotation;
@@ -32,7 +32,9 @@ pub use weights::shepard;
 /// What of the guides is mixed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mixing {
-    /// `(kT, alpha kT, kN, kB)` and the pieces' parts of the length, frames rolled to agree.
+    /// The curvature at the beginning of a piece, its growth along it, its mean over it and its
+    /// direction, and the piece's part of the length. The size of a curvature and its direction are
+    /// mixed apart: curls that are out of step stay curls.
     #[default]
     Bends,
     /// `(kT, kN, kB, alpha)` of guides with a positive `kT`, pieces equally long, as published.
@@ -50,11 +52,12 @@ pub struct FillOptions {
     pub exponent: f64,
     /// How many of the nearest guides count; 0 for all, as published. Default 8.
     pub neighbours: usize,
-    /// Points at which each hair is held to the mean of the guides' points; 0, as published and the
-    /// default, leaves it where its parameters lead. What is mixed of parameters bends right and
-    /// ends anywhere, for every error of direction grows along the hair; the mean of points ends
-    /// right and is too straight. A hair that is held keeps its length, so what the mean of points
-    /// has lost in length it has to bend.
+    /// Stretches of each hair that are held to the mean of the guides' points, each on the average
+    /// of its length; 0, as published and the default, leaves the hair where its parameters lead.
+    /// What is mixed of parameters bends right and ends anywhere, for every error of direction
+    /// grows along the hair; the mean of points ends right, but its curls have cancelled. So the
+    /// course of a hair is taken from the points and what is shorter than a stretch from the
+    /// parameters: there should be no more stretches than turns of a coil. At most 1000.
     pub hold: usize,
 }
 
@@ -127,6 +130,19 @@ pub enum FillError {
     /// The exponent is negative or not finite.
     #[error("the exponent is {0}, expected at least 0")]
     Exponent(f64),
+    /// Hairs held in more stretches than [`FillOptions::hold`] may be.
+    ///
+    /// ```
+    /// use tress_geometry::Strands;
+    /// use tress_helicoid::{FillError, FillOptions, HelicoidGroom, Roots, fill};
+    ///
+    /// let none = HelicoidGroom::new(vec![], Strands::default())?;
+    /// let options = FillOptions { hold: 5000, ..FillOptions::default() };
+    /// assert_eq!(fill(&none, Roots::Points(&[]), &options), Err(FillError::Hold(5000)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[error("hairs held in {0} stretches, expected at most 1000")]
+    Hold(usize),
     /// A root, or a normal, that is not finite.
     #[error("root {0} or its normal is not finite")]
     Root(usize),
@@ -156,7 +172,7 @@ pub enum FillError {
 /// let pieces = Strands::from_counts([1, 1], vec![bent(1.0), bent(2.0)])?;
 /// let guides = HelicoidGroom::new(roots.to_vec(), pieces)?;
 /// let filled = fill(&guides, Roots::Points(&[DVec3::X]), &FillOptions::default())?;
-/// assert_eq!(filled.hairs.hair(0).pieces[0].k.kt, 1.5);
+/// assert!((filled.hairs.hair(0).pieces[0].k.kt - 1.5).abs() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -170,6 +186,9 @@ pub fn fill(
 ) -> Result<Filled, FillError> {
     if !(0.0 <= options.exponent && options.exponent.is_finite()) {
         return Err(FillError::Exponent(options.exponent));
+    }
+    if MOST_STRETCHES < options.hold {
+        return Err(FillError::Hold(options.hold));
     }
     check_roots(guides, roots)?;
     let usable = usable_guides(guides, roots, options)?;
@@ -190,6 +209,13 @@ pub fn fill(
         .collect();
     gather(guides, hairs)
 }
+
+/// Stretches that a hair can be held in: far more than any hair has turns.
+const MOST_STRETCHES: usize = 1000;
+
+/// Points over whose mean a hair is held in each of its stretches: enough to tell the mean of a
+/// turn of a coil.
+const WINDOW: usize = 4;
 
 /// One new hair.
 struct Mixed {
@@ -212,9 +238,9 @@ impl Mixed {
         let (rotation, mut pieces) = mix::mix(guides, weights, normal, options.mixing);
         let mut root = Frame { position, axes: glam::DMat3::from_quat(rotation) };
         if 0 < options.hold {
-            let points = mix::points(guides, weights, normal, options.hold);
+            let points = mix::points(guides, weights, normal, options.hold * WINDOW);
             let hair = PHelicoid { root, pieces: &pieces };
-            let held = hold(&hair, &points);
+            let held = hold(&hair, &points, WINDOW);
             if let Some((turned, bent)) = held.filter(|(root, pieces)| is_clear(root, pieces)) {
                 (root, pieces) = (turned, bent);
             }
@@ -233,8 +259,7 @@ const SURELY_CLEAR: f64 = 0.9;
 /// Whether the hair can be traced.
 fn is_clear(root: &Frame, pieces: &[Piece]) -> bool {
     let surely = |piece: &Piece| piece.k.kt.hypot(piece.k.kn) * piece.length < SURELY_CLEAR;
-    pieces.iter().all(surely)
-        || PHelicoid { root: *root, pieces }.tip(Tracing::Controlled(1e-4)).is_ok()
+    pieces.iter().all(surely) || PHelicoid { root: *root, pieces }.tip(Tracing::default()).is_ok()
 }
 
 /// An error unless all roots and normals are there and finite.
@@ -264,7 +289,7 @@ fn usable_guides<'a>(
     options: &FillOptions,
 ) -> Result<Vec<Guide<'a>>, FillError> {
     let mut usable = Vec::with_capacity(guides.len());
-    let mut line = vec![DVec3::ZERO; options.hold + 1];
+    let mut line = vec![DVec3::ZERO; options.hold * WINDOW + 1];
     for (index, hair) in guides.iter().enumerate() {
         let length = hair.length();
         if hair.pieces.is_empty() || length <= 0.0 {
@@ -281,8 +306,17 @@ fn usable_guides<'a>(
             Roots::Points(_) => None,
             Roots::Surface { at_guides, .. } => Some(&at_guides[index]),
         };
-        let rotation = DQuat::from_mat3(&root.axes).normalize();
-        usable.push(Guide { index, root: root.position, rotation, normal, pieces, length, points });
+        let curvature = |piece: &Piece| mean_curvature(&piece.k, piece.length).unwrap_or(0.0);
+        usable.push(Guide {
+            index,
+            root: root.position,
+            rotation: DQuat::from_mat3(&root.axes).normalize(),
+            normal,
+            curvatures: pieces.iter().map(curvature).collect(),
+            pieces,
+            length,
+            points,
+        });
     }
     if usable.is_empty() { Err(FillError::NoGuide) } else { Ok(usable) }
 }

@@ -18,6 +18,8 @@ use rayon::prelude::*;
 use tress_geometry::polyline::Defect;
 use tress_geometry::{Frame, Groom, Strands};
 
+pub(crate) use chain::KN;
+pub(crate) use flow::mean_curvature;
 pub use options::{FitOptions, FitOptionsError, Method, Pieces, Roll};
 
 use crate::frechet::frechet;
@@ -89,10 +91,12 @@ pub fn fit_strand(points: &[DVec3], options: &FitOptions) -> Result<StrandFit, D
         Pieces::Equal(n) => n * SEGMENTS,
     };
     let target = Target::new(points, fewest)?;
-    let chain = traceable(&target, options).ok_or(Defect::NotFinite)?;
+    let mut chain = traceable(&target, options).ok_or(Defect::NotFinite)?;
+    chain.turn = flow::FINE;
     let behind = Points {
         positions: &target.polyline[1..],
         arc_lengths: &target.at_polyline[1..],
+        window: 1,
         end: None,
     };
     let mut traced = vec![DVec3::ZERO];
@@ -124,9 +128,17 @@ const SEGMENTS: usize = 4;
 /// Effort of a hold: what further steps change is less than the mean of guides is good for.
 const HOLD: levenberg::Effort = levenberg::Effort { steps: 8, gain: 1e-2 };
 
+/// What a change of curvature costs a hair that is held. With less, hairs come nearer to the mean
+/// of points, which is too straight or too curved; with more they keep what was mixed.
+const KEPT: f64 = 0.7;
+
 /// Bends a hair so that it passes points, given from its root at equal parts of its length, as well
-/// as it can with the length it has.
-pub(crate) fn hold(hair: &PHelicoid<'_>, points: &[DVec3]) -> Option<(Frame, Vec<Piece>)> {
+/// as it can with the length it has; only the means of so many points in a row count.
+pub(crate) fn hold(
+    hair: &PHelicoid<'_>,
+    points: &[DVec3],
+    window: usize,
+) -> Option<(Frame, Vec<Piece>)> {
     let length = hair.length();
     let scaled = |piece: &Piece, by: f64| {
         let Helicoid { kt, kn, kb, alpha } = piece.k;
@@ -139,16 +151,15 @@ pub(crate) fn hold(hair: &PHelicoid<'_>, points: &[DVec3]) -> Option<(Frame, Vec
     }));
     let root = Frame { position: DVec3::ZERO, ..hair.root };
     let pieces = hair.pieces.iter().map(|piece| scaled(piece, length)).collect();
-    let mut chain = Chain { root, pieces, breaks };
+    let mut chain = Chain { root, pieces, breaks, turn: flow::ROUGH };
     let positions: Vec<DVec3> = points.iter().map(|p| p / length).collect();
     let parts = 1..=points.len();
     let arc_lengths: Vec<f64> = parts.map(|i| i as f64 / points.len() as f64).collect();
-    let points = Points { positions: &positions, arc_lengths: &arc_lengths, end: None };
+    let points = Points { positions: &positions, arc_lengths: &arc_lengths, window, end: None };
     let prior = levenberg::Prior {
-        curvature: 1.0,
+        curvature: 0.0,
         stretch: 0.1,
-        change: 0.5,
-        keep_changes: true,
+        keep: KEPT,
         free_root: true,
         free_roll: false,
     };

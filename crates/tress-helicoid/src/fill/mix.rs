@@ -5,6 +5,7 @@ use tress_geometry::Frame;
 
 use super::Mixing;
 use super::rotation::mean_rotation;
+use crate::fit::{KN, mean_curvature};
 use crate::{Helicoid, Piece};
 
 /// A guide as it is mixed.
@@ -16,6 +17,8 @@ pub(super) struct Guide<'a> {
     pub(super) rotation: DQuat,
     pub(super) normal: Option<&'a DVec3>,
     pub(super) pieces: Vec<Piece>,
+    /// Mean curvature of each piece.
+    pub(super) curvatures: Vec<f64>,
     pub(super) length: f64,
     /// Where it goes from its root, at the places where hairs are held.
     pub(super) points: Vec<DVec3>,
@@ -132,20 +135,86 @@ impl Rolled {
 /// `|kT|` is at least this part of `|alpha kT|`.
 const LEAST_KT: f64 = 1e-3;
 
-/// The mean bend, `kN` and `kB` over the guides that have a piece `j`, and its part of the length.
-fn bends<'a>(guides: impl Iterator<Item = (&'a Guide<'a>, f64, Rolled)>, j: usize) -> Piece {
-    let (mut bend, mut kn, mut kb, mut part, mut total) = (DVec2::ZERO, 0.0, 0.0, 0.0, 0.0);
-    for (guide, w, rolled) in guides {
-        let Some(Piece { k, length }) = guide.piece(j) else { continue };
-        bend += w * rolled.bend(k);
-        kn += w * k.kn;
-        kb += w * k.kb;
-        part += w * length / guide.length;
-        total += w;
+/// Sums over the guides that have a piece, by their weights, of what a turn of the frame about the
+/// tangent does not change, and of the bend in frames turned to agree.
+#[derive(Default)]
+struct Sums {
+    bend: DVec2,
+    /// `|kT| sqrt(1 + alpha^2)`, the curvature where the piece begins.
+    curvature: f64,
+    /// `alpha kB - kN`, how fast the curvature grows there, over the curvature.
+    growth: f64,
+    /// `kB sqrt(1 + alpha^2)`, which bounds `alpha kB` whatever `alpha` the mean has. It is worth
+    /// as much as the bends agree: without the guides' `alpha` their `kB` says nothing.
+    climb: f64,
+    /// The least and the greatest `kN`.
+    kn: (f64, f64),
+    mean_curvature: f64,
+    length: f64,
+    part: f64,
+    total: f64,
+}
+
+impl Sums {
+    fn add(
+        &mut self,
+        guide: &Guide<'_>,
+        piece: &Piece,
+        mean_curvature: f64,
+        w: f64,
+        roll: &Rolled,
+    ) {
+        let Piece { k, length } = piece;
+        let slope = 1.0_f64.hypot(k.alpha);
+        self.bend += w * roll.bend(k);
+        self.curvature += w * k.kt.abs() * slope;
+        self.growth += w * (k.alpha * k.kb - k.kn);
+        self.climb += w * k.kb * slope;
+        let (least, most) = self.kn;
+        self.kn = (least.min(k.kn).min(KN.0 / length), most.max(k.kn).max(KN.1 / length));
+        self.mean_curvature += w * mean_curvature;
+        self.length += w * length;
+        self.part += w * length / guide.length;
+        self.total += w;
     }
-    let bend = bend / total;
-    let least = LEAST_KT * bend.y.abs();
-    let kt = if bend.x.abs() < least { least.copysign(bend.x) } else { bend.x };
-    let alpha = if kt == 0.0 { 0.0 } else { bend.y / kt };
-    Piece { k: Helicoid::new(kt, kn / total, kb / total, alpha), length: part / total }
+
+    /// The helicoid that bends in this direction with such a curvature.
+    fn helicoid(&self, direction: DVec2, curvature: f64) -> Helicoid {
+        let bend = curvature * direction;
+        let least = LEAST_KT * bend.y.abs();
+        let kt = if bend.x.abs() < least { least.copysign(bend.x) } else { bend.x };
+        let alpha = if kt == 0.0 { 0.0 } else { bend.y / kt };
+        let agreement = self.bend.length() / self.curvature.max(f64::MIN_POSITIVE);
+        let climb = agreement.powi(4) * self.climb / self.total;
+        let kb = climb / 1.0_f64.hypot(alpha);
+        let (least, most) = self.kn;
+        let kn = (alpha * kb - self.growth / self.total).clamp(least, most);
+        Helicoid::new(kt, kn, kb, alpha)
+    }
+
+    /// The mixed piece, its length as a part of the hair's.
+    fn piece(&self) -> Piece {
+        let direction = self.bend.normalize_or(DVec2::X);
+        let at_beginning = self.curvature / self.total;
+        let mut k = self.helicoid(direction, at_beginning);
+        // What the growth makes of it along the piece is put right by a factor.
+        if let Some(own) = mean_curvature(&k, self.length / self.total)
+            && 0.0 < own
+        {
+            let factor = (self.mean_curvature / self.total / own).clamp(0.5, 2.0);
+            k = self.helicoid(direction, factor * at_beginning);
+        }
+        Piece { k, length: self.part / self.total }
+    }
+}
+
+/// Piece `j`, mixed from the guides that have one.
+fn bends<'a>(guides: impl Iterator<Item = (&'a Guide<'a>, f64, Rolled)>, j: usize) -> Piece {
+    let mut sums = Sums::default();
+    for (guide, w, rolled) in guides {
+        if let Some(piece) = guide.piece(j) {
+            sums.add(guide, piece, guide.curvatures[j], w, &rolled);
+        }
+    }
+    sums.piece()
 }

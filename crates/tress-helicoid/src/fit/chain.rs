@@ -12,7 +12,7 @@
 use glam::DVec3;
 use tress_geometry::Frame;
 
-use super::flow::Along;
+use super::flow::{Along, End, walk};
 use crate::{Helicoid, Piece};
 
 /// Unknowns of a piece: `a, c, kN, kB` and the logarithm of its length.
@@ -26,10 +26,13 @@ const LEAST_KT: f64 = 1e-3;
 
 /// Bounds of `kN` over the piece: below -1 the line would run into its singular line, and from 4 on
 /// it is straight but for its first fifth.
-const KN: (f64, f64) = (-0.8, 4.0);
+pub(crate) const KN: (f64, f64) = (-0.8, 4.0);
 
 /// Bound of `|kB|` over the piece.
 const KB: f64 = 3.0;
+
+/// What is nearer to a bound than this stands at it.
+const NEXT_TO: f64 = 1e-6;
 
 /// Pieces under fit, in the normal form of the target.
 #[derive(Clone, Debug)]
@@ -38,6 +41,8 @@ pub(super) struct Chain {
     pub(super) pieces: Vec<Piece>,
     /// Arc lengths of the target where pieces begin, and where the last ends.
     pub(super) breaks: Vec<f64>,
+    /// Radians that its flow may turn in one step of tracing.
+    pub(super) turn: f64,
 }
 
 /// The points that a chain is to pass, and their arc lengths on the target, ascending behind the
@@ -46,8 +51,28 @@ pub(super) struct Chain {
 pub(super) struct Points<'a> {
     pub(super) positions: &'a [DVec3],
     pub(super) arc_lengths: &'a [f64],
+    /// How many points in a row are passed on the average only: 1 where each counts.
+    pub(super) window: usize,
     /// The direction that the chain is to end with, and the length that a radian off it counts as.
     pub(super) end: Option<(DVec3, f64)>,
+}
+
+impl Points<'_> {
+    /// Whether point `i` is the last of its window.
+    fn closes(&self, i: usize) -> bool {
+        (i + 1).is_multiple_of(self.window) || i + 1 == self.positions.len()
+    }
+
+    /// How many points there are to a piece.
+    pub(super) fn per_piece(&self, chain: &Chain) -> f64 {
+        self.positions.len() as f64 / chain.pieces.len() as f64
+    }
+
+    /// What a sum over a window is multiplied by: a window that is off by a distance throughout
+    /// costs as much as its points would.
+    fn of_sum(&self) -> f64 {
+        (self.window as f64).sqrt().recip()
+    }
 }
 
 /// A motion of everything behind a piece, by one unknown: `v + omega x p`.
@@ -76,39 +101,35 @@ pub(super) fn bent(a: f64, c: f64, kn: f64, kb: f64, scale: f64) -> Helicoid {
 }
 
 impl Chain {
-    /// The pieces' points in turn, each with the frame of its piece; false at a singular line.
+    /// The pieces' points in turn, then the piece's end; `None` at a singular line.
     ///
     /// `visit` gets the point's index, the piece's index and base, and the place on its line.
     fn walk<const N: usize>(
         &self,
         points: Points<'_>,
         mut visit: impl FnMut(usize, usize, &Frame, &Along<N>),
-        mut ended: impl FnMut(usize, &Frame, &Along<N>),
+        mut ended: impl FnMut(usize, &Frame, &End<N>),
     ) -> Option<Frame> {
         let mut base = self.root;
-        let mut i = 0;
+        let mut first = 0;
         for (j, piece) in self.pieces.iter().enumerate() {
             let (begins, ends) = (self.breaks[j], self.breaks[j + 1]);
+            let rest = &points.arc_lengths[first..];
             let last = j + 1 == self.pieces.len();
-            let mut here = Along::<N>::root();
-            let mut walked = 0.0;
-            while let Some(&s) = points.arc_lengths.get(i)
-                && (last || s <= ends)
-            {
-                let part = ((s - begins) / (ends - begins)).clamp(0.0, 1.0);
-                here = here.advance(&piece.k, (part - walked) * piece.length)?;
-                walked = part;
-                visit(i, j, &base, &here);
+            let count = if last { rest.len() } else { rest.partition_point(|&s| s <= ends) };
+            let stretch = piece.length / (ends - begins);
+            let stops = rest[..count].iter().map(|s| ((s - begins) * stretch).max(0.0));
+            let mut i = first;
+            let end = walk::<N>(&piece.k, piece.length, self.turn, stops, |along| {
+                visit(i, j, &base, &along);
                 i += 1;
-            }
-            if walked < 1.0 {
-                here = here.advance(&piece.k, (1.0 - walked) * piece.length)?;
-            }
-            ended(j, &base, &here);
+            })?;
+            ended(j, &base, &end);
             base = Frame {
-                position: base.position + base.axes * here.position,
-                axes: base.axes * piece.k.frame(here.theta),
+                position: base.position + base.axes * end.position,
+                axes: base.axes * piece.k.frame(end.theta),
             };
+            first += count;
         }
         Some(base)
     }
@@ -127,9 +148,7 @@ impl Chain {
         let mut tangents = Vec::with_capacity(points.positions.len());
         self.walk::<0>(
             points,
-            |_, j, base, here| {
-                tangents.push(base.axes * self.pieces[j].k.direction(here.theta));
-            },
+            |_, _, base, here| tangents.push(base.axes * here.direction),
             |_, _, _| (),
         );
         tangents
@@ -138,12 +157,15 @@ impl Chain {
     /// Sum of squared distances from the points (and of the end's direction); infinite where the
     /// chain is singular.
     pub(super) fn cost(&self, points: Points<'_>) -> f64 {
-        let mut sum = 0.0;
+        let (mut sum, mut off) = (0.0, DVec3::ZERO);
         let whole = self.walk::<0>(
             points,
             |i, _, base, here| {
-                let position = base.position + base.axes * here.position;
-                sum += position.distance_squared(points.positions[i]);
+                off += base.position + base.axes * here.position - points.positions[i];
+                if points.closes(i) {
+                    sum += (points.of_sum() * off).length_squared();
+                    off = DVec3::ZERO;
+                }
             },
             |_, _, _| (),
         );
@@ -173,25 +195,38 @@ impl Chain {
             let root = self.root.position;
             motions.borrow_mut().extend(turns.map(|t| Motion::through(root, DVec3::ZERO, t)));
         }
-        let mut columns = Vec::new();
+        let mut columns: Vec<DVec3> = Vec::with_capacity(self.unknowns(free_root));
+        let mut off = DVec3::ZERO;
         let tip = self.walk::<4>(
             points,
             |i, j, base, here| {
                 let position = base.position + base.axes * here.position;
-                columns.clear();
-                columns.extend(motions.borrow().iter().map(|motion| motion.at(position)));
+                let motions = motions.borrow();
+                columns.resize(motions.len() + OF_PIECE, DVec3::ZERO);
+                let (before, own) = columns.split_at_mut(motions.len());
+                for (column, motion) in before.iter_mut().zip(motions.iter()) {
+                    *column += motion.at(position);
+                }
                 let k = &self.pieces[j].k;
                 let part = (points.arc_lengths[i] - self.breaks[j])
                     / (self.breaks[j + 1] - self.breaks[j]);
-                let stretch = part.min(1.0) * self.pieces[j].length * k.direction(here.theta);
+                let stretch = part.min(1.0) * self.pieces[j].length * here.direction;
                 let by = unknowns_of(k, here.by_k);
-                columns.extend(by.iter().chain([&stretch]).map(|&v| base.axes * v));
-                take(position - points.positions[i], &columns);
+                for (column, &v) in own.iter_mut().zip(by.iter().chain([&stretch])) {
+                    *column += base.axes * v;
+                }
+                off += position - points.positions[i];
+                if points.closes(i) {
+                    columns.iter_mut().for_each(|column| *column *= points.of_sum());
+                    take(points.of_sum() * off, &columns);
+                    columns.clear();
+                    off = DVec3::ZERO;
+                }
             },
             |j, base, here| {
                 let k = &self.pieces[j].k;
                 let position = base.position + base.axes * here.position;
-                let turning = here.turning(k).unwrap_or_default();
+                let turning = here.turning(k);
                 let (by, turns) = (unknowns_of(k, here.by_k), unknowns_of(k, turning));
                 let motion = |moved: DVec3, turned: DVec3| {
                     Motion::through(position, base.axes * moved, base.axes * turned)
@@ -211,6 +246,17 @@ impl Chain {
             take(lever * (t - wanted), &columns);
         }
         Some(())
+    }
+
+    /// The unknowns, counted from the first of piece `i`, that stand at a bound beyond which a step
+    /// against `gradient` would lead.
+    pub(super) fn at_bounds(&self, i: usize, gradient: &[f64]) -> [bool; OF_PIECE] {
+        let Piece { k, length } = self.pieces[i];
+        let held = |value: f64, (least, most): (f64, f64), slope: f64| {
+            let value = value * length;
+            (value <= least + NEXT_TO && 0.0 < slope) || (most - NEXT_TO <= value && slope < 0.0)
+        };
+        [false, false, held(k.kn, KN, gradient[2]), held(k.kb, (-KB, KB), gradient[3]), false]
     }
 
     /// The chain with all unknowns moved by a step.
@@ -247,6 +293,7 @@ fn unknowns_of(k: &Helicoid, by: [DVec3; 4]) -> [DVec3; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::flow::FINE;
 
     #[test]
     fn derivatives_are_those_of_the_whole_chain() {
@@ -259,10 +306,12 @@ mod tests {
                 piece(1.0, 0.0, 0.0, -0.7),
             ],
             breaks: vec![0.0, 0.4, 0.7, 1.0],
+            turn: FINE,
         };
         let arc_lengths: Vec<f64> = (1..=20).map(|i| f64::from(i) / 20.0).collect();
         let positions = vec![DVec3::ZERO; 20];
-        let points = Points { positions: &positions, arc_lengths: &arc_lengths, end: None };
+        let points =
+            Points { positions: &positions, arc_lengths: &arc_lengths, window: 1, end: None };
         let n = chain.unknowns(true);
         let e = 1e-6;
         let mut rows: Vec<(DVec3, Vec<DVec3>)> = Vec::new();

@@ -6,186 +6,264 @@
 //!
 //! where `t` is the derivative of `theta` at a fixed place: `Re(w/U)` for `kT`, `Im(w/U)` for `kN`,
 //! `z` for `kB` and 0 for `alpha`. Position and derivatives go together by the classical
-//! Runge-Kutta method of order 4: in a fit the points are near each other.
+//! Runge-Kutta method of order 4. Steps are as long as the flow's turning lets them be, whatever
+//! lies between: the points of a strand are read off cubics through the ends of a step.
+//!
+//! `theta` goes on by its own rate, `theta' = grad theta . E_T`, so that cycles count themselves,
+//! and its sines by those of the small difference.
+
+mod angles;
 
 use glam::DVec3;
 
 use crate::Helicoid;
-use crate::field::LEAST_CLEARANCE;
+use angles::Angles;
 
-/// Radians that the flow may turn in one step; a step of half a radian errs by about 1e-4 of it.
-const TURN: f64 = 0.35;
+/// Radians that the flow may turn in one step while parameters are sought. The method errs by
+/// `turn^4 / 120` of the arc length, the cubics between by `turn^4 / 384` of the radius of
+/// curvature: by 1e-4, of which a tolerance sees nothing.
+pub(super) const ROUGH: f64 = 0.2;
 
-/// Steps between two points at most, so that no parameters make a fit hang.
-const MOST_STEPS: usize = 24;
+/// The same where points may come from a helicoid that is to be found again: 1e-6.
+pub(super) const FINE: f64 = 0.1;
+
+/// Steps of a piece at most, so that no parameters make a fit hang.
+const MOST_STEPS: f64 = 256.0;
 
 /// Clearance of a fitted line; nearer to its singular line steps of this length see nothing of it.
 const CLEAR: f64 = 0.05;
 
-/// A place on a line of flow, with derivatives by the first `N` of `kT, kN, kB, alpha`.
+/// What is known on a line of flow: the position, its direction there, and the position's
+/// derivatives by the first `N` of `kT, kN, kB, alpha`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Along<const N: usize> {
     pub(super) position: DVec3,
+    pub(super) direction: DVec3,
+    pub(super) by_k: [DVec3; N],
+}
+
+/// The end of a line of flow.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End<const N: usize> {
+    pub(super) position: DVec3,
+    /// The first angle, cycles counted.
     pub(super) theta: f64,
     pub(super) by_k: [DVec3; N],
+}
+
+/// Walks the line from the root over `length` and gives its end; `None` where it comes to its
+/// singular line. In a step it may turn by so many radians. `visit` gets what is at each of the
+/// `stops`, which ascend from 0 to `length`.
+pub(super) fn walk<const N: usize>(
+    k: &Helicoid,
+    length: f64,
+    turn: f64,
+    stops: impl Iterator<Item = f64>,
+    mut visit: impl FnMut(Along<N>),
+) -> Option<End<N>> {
+    let mut stops = stops.peekable();
+    let tip = steps(k, length, turn, |from, to, step| {
+        while let Some(stop) = stops.next_if(|&stop| step.is_last || stop <= step.begins + step.h) {
+            visit(between(from, to, step.h, ((stop - step.begins) / step.h).min(1.0)));
+        }
+    })?;
+    let End { position, by_k, .. } = tip.end;
+    let at_tip = Along { position, direction: tip.rates.direction, by_k };
+    stops.for_each(|_| visit(at_tip));
+    position.is_finite().then_some(tip.end)
+}
+
+/// The mean curvature of the line over `length`, that of the root where there is none; `None` where
+/// it comes to its singular line.
+pub(crate) fn mean_curvature(k: &Helicoid, length: f64) -> Option<f64> {
+    let mut turned = 0.0;
+    let tip = steps::<0>(k, length, ROUGH, |from, to, step| {
+        turned += 0.5 * step.h * (from.rates.turn + to.rates.turn);
+    })?;
+    Some(if 0.0 < length { turned / length } else { tip.rates.turn })
+}
+
+/// The end of a step, which begins the next one.
+struct Node<const N: usize> {
+    end: End<N>,
+    angles: Angles,
+    rates: Rates<N>,
+}
+
+/// Where a step begins, and how long it is.
+struct Step {
+    begins: f64,
+    h: f64,
+    is_last: bool,
+}
+
+/// Takes all steps of a line and shows `visit` the ends of each; gives the last one's end.
+fn steps<const N: usize>(
+    k: &Helicoid,
+    length: f64,
+    turn: f64,
+    mut visit: impl FnMut(&Node<N>, &Node<N>, Step),
+) -> Option<Node<N>> {
+    let end = End { position: DVec3::ZERO, theta: 0.0, by_k: [DVec3::ZERO; N] };
+    let angles = Angles::of(k, 0.0);
+    let mut here = Node { end, angles, rates: end.rates(k, &angles)? };
+    let mut s = 0.0;
+    while s < length {
+        let h = step_length(&here.rates, turn, length - s, length)?;
+        let end = here.end.advance(k, &here.angles, &here.rates, h)?;
+        let angles = here.angles.turned(k, end.theta - here.end.theta);
+        let next = Node { end, angles, rates: end.rates(k, &angles)? };
+        let is_last = length <= s + h;
+        visit(&here, &next, Step { begins: s, h, is_last });
+        here = next;
+        s = if is_last { length } else { s + h };
+    }
+    Some(here)
+}
+
+/// How far the next step goes.
+fn step_length<const N: usize>(rates: &Rates<N>, turn: f64, rest: f64, length: f64) -> Option<f64> {
+    let steps = rates.turn.max(rates.nearing) * rest / turn;
+    steps.is_finite().then(|| (rest / steps.ceil().max(1.0)).max(length / MOST_STEPS).min(rest))
 }
 
 /// What changes along the way.
 struct Rates<const N: usize> {
     direction: DVec3,
-    by_k: [DVec3; N],
     theta: f64,
+    by_k: [DVec3; N],
     /// How fast the frame turns.
     turn: f64,
+    /// How fast the singular line could come nearer, over the distance from it: next to it the flow
+    /// begins to turn however straight it was.
+    nearing: f64,
 }
 
-impl<const N: usize> Along<N> {
-    pub(super) fn root() -> Self {
-        Self { position: DVec3::ZERO, theta: 0.0, by_k: [DVec3::ZERO; N] }
-    }
-
-    /// Goes on by `h`; `None` where the line comes to its singular line.
-    pub(super) fn advance(mut self, k: &Helicoid, h: f64) -> Option<Self> {
-        let first = self.rates(k)?;
-        let wanted = (first.turn * h / TURN).ceil();
-        if !wanted.is_finite() {
-            return None;
-        }
-        #[expect(clippy::cast_possible_truncation, reason = "held to the most there may be")]
-        let n = (wanted.max(1.0) as usize).min(MOST_STEPS);
-        let step = h / n as f64;
-        let mut first = Some(first);
-        for _ in 0..n {
-            let a = match first.take() {
-                Some(rates) => rates,
-                None => self.rates(k)?,
-            };
-            let b = self.ahead(&a, 0.5 * step).rates(k)?;
-            let c = self.ahead(&b, 0.5 * step).rates(k)?;
-            let d = self.ahead(&c, step).rates(k)?;
-            let sixth = step / 6.0;
-            let sum = |a: DVec3, b: DVec3, c: DVec3, d: DVec3| (a + 2.0 * (b + c) + d) * sixth;
-            self.position += sum(a.direction, b.direction, c.direction, d.direction);
-            for j in 0..N {
-                self.by_k[j] += sum(a.by_k[j], b.by_k[j], c.by_k[j], d.by_k[j]);
-            }
-            self.theta = k.theta_near(self.position, d.theta);
-        }
-        self.position.is_finite().then_some(self)
-    }
-
-    fn ahead(&self, rates: &Rates<N>, h: f64) -> Self {
+impl<const N: usize> End<N> {
+    /// One step of the Runge-Kutta method from here, where `angles` and `first` are.
+    fn advance(&self, k: &Helicoid, angles: &Angles, first: &Rates<N>, h: f64) -> Option<Self> {
+        let stage = |slope: &Rates<N>, h: f64| {
+            let ahead = self.ahead(slope, h);
+            let turned = angles.turned(k, h * slope.theta);
+            ahead.rates(k, &turned)
+        };
+        let b = stage(first, 0.5 * h)?;
+        let c = stage(&b, 0.5 * h)?;
+        let d = stage(&c, h)?;
+        let sixth = h / 6.0;
+        let position = self.position
+            + sixth * (first.direction + 2.0 * (b.direction + c.direction) + d.direction);
+        let theta = self.theta + sixth * (first.theta + 2.0 * (b.theta + c.theta) + d.theta);
         let mut by_k = self.by_k;
-        for (p, rate) in by_k.iter_mut().zip(&rates.by_k) {
+        for (j, p) in by_k.iter_mut().enumerate() {
+            *p += sixth * (first.by_k[j] + 2.0 * (b.by_k[j] + c.by_k[j]) + d.by_k[j]);
+        }
+        Some(Self { position, theta, by_k })
+    }
+
+    fn ahead(&self, slope: &Rates<N>, h: f64) -> Self {
+        let mut by_k = self.by_k;
+        for (p, rate) in by_k.iter_mut().zip(&slope.by_k) {
             *p += h * *rate;
         }
-        Self { position: self.position + h * rates.direction, theta: rates.theta, by_k }
+        Self {
+            position: self.position + h * slope.direction,
+            theta: self.theta + h * slope.theta,
+            by_k,
+        }
     }
 
-    fn rates(&self, k: &Helicoid) -> Option<Rates<N>> {
-        let theta = k.theta_near(self.position, self.theta);
-        let (sine, cosine) = theta.sin_cos();
-        let (rise, run) = k.phi(theta).sin_cos();
-        let direction = DVec3::new(run * cosine, run * sine, rise);
-        let e_n = DVec3::new(-sine, cosine, 0.0);
-        let e_b = DVec3::new(-rise * cosine, -rise * sine, run);
-        if k.clearance(self.position) < CLEAR {
-            return None;
-        }
-        let gradient = k.gradient(self.position)?;
-        let rate = gradient.dot(direction);
+    fn rates(&self, k: &Helicoid, angles: &Angles) -> Option<Rates<N>> {
+        let field = Field::at(k, self.position)?;
+        let direction = angles.e_t();
+        let theta = field.gradient.dot(direction);
         let mut by_k = [DVec3::ZERO; N];
         if 0 < N {
-            let fixed = by_parameter(k, self.position);
-            let turn = run * e_n + k.alpha * e_b;
+            let e_b = angles.e_b();
+            let across = angles.run * angles.e_n() + k.alpha * e_b;
             for (j, change) in by_k.iter_mut().enumerate() {
-                let more = if j == 3 { theta * e_b } else { DVec3::ZERO };
-                *change = turn * (gradient.dot(self.by_k[j]) + fixed[j]) + more;
+                let more = if j == 3 { self.theta * e_b } else { DVec3::ZERO };
+                *change = across * field.dtheta(j, self.by_k[j]) + more;
             }
         }
-        let turn = rate.abs() * run.hypot(k.alpha);
-        Some(Rates { direction, by_k, theta, turn })
+        let turn = theta.abs() * (angles.run * angles.run + k.alpha * k.alpha).sqrt();
+        Some(Rates { direction, theta, by_k, turn, nearing: field.nearing })
     }
 }
 
-impl Along<4> {
+impl End<4> {
     /// The vectors about which the frame turns when a parameter grows, in coordinates of the field.
-    pub(super) fn turning(&self, k: &Helicoid) -> Option<[DVec3; 4]> {
-        let gradient = k.gradient(self.position)?;
-        let fixed = by_parameter(k, self.position);
-        let (sine, cosine) = self.theta.sin_cos();
-        let e_n = DVec3::new(-sine, cosine, 0.0);
+    pub(super) fn turning(&self, k: &Helicoid) -> [DVec3; 4] {
+        let Some(field) = Field::at(k, self.position) else { return [DVec3::ZERO; 4] };
+        let e_n = Angles::of(k, self.theta).e_n();
         let mut turning = [DVec3::ZERO; 4];
         for (j, turn) in turning.iter_mut().enumerate() {
-            let theta = gradient.dot(self.by_k[j]) + fixed[j];
+            let theta = field.dtheta(j, self.by_k[j]);
             let more = if j == 3 { self.theta } else { 0.0 };
             *turn = theta * DVec3::Z - (k.alpha * theta + more) * e_n;
         }
-        Some(turning)
+        turning
     }
 }
 
-/// The derivatives of `theta` at a fixed place by `kT, kN, kB, alpha`.
-fn by_parameter(k: &Helicoid, p: DVec3) -> [f64; 4] {
-    let (re, im) = (1.0 + k.kn * p.x - k.kt * p.y, k.kt * p.x + k.kn * p.y);
-    let square = (re * re + im * im).max(LEAST_CLEARANCE * LEAST_CLEARANCE);
-    [(p.x * re + p.y * im) / square, (p.y * re - p.x * im) / square, p.z, 0.0]
+/// What the field is at a place, but for its angles.
+struct Field {
+    gradient: DVec3,
+    /// Derivatives of `theta` there by `kT, kN, kB, alpha`.
+    by_parameter: [f64; 4],
+    nearing: f64,
+}
+
+impl Field {
+    fn at(k: &Helicoid, p: DVec3) -> Option<Self> {
+        let (re, im) = (1.0 + k.kn * p.x - k.kt * p.y, k.kt * p.x + k.kn * p.y);
+        let square = re * re + im * im;
+        if !(CLEAR * CLEAR < square && square.is_finite()) {
+            return None;
+        }
+        let inverse = square.recip();
+        Some(Self {
+            gradient: DVec3::new(
+                (k.kt * re - k.kn * im) * inverse,
+                (k.kn * re + k.kt * im) * inverse,
+                k.kb,
+            ),
+            by_parameter: [
+                (p.x * re + p.y * im) * inverse,
+                (p.y * re - p.x * im) * inverse,
+                p.z,
+                0.0,
+            ],
+            nearing: ((k.kt * k.kt + k.kn * k.kn) * inverse).sqrt(),
+        })
+    }
+
+    /// How `theta` changes with parameter `j` where the place changes by `by_k`.
+    fn dtheta(&self, j: usize, by_k: DVec3) -> f64 {
+        self.gradient.dot(by_k) + self.by_parameter[j]
+    }
+}
+
+/// What is at the part `t` of a step of length `h`, on the cubics through its ends.
+fn between<const N: usize>(from: &Node<N>, to: &Node<N>, h: f64, t: f64) -> Along<N> {
+    let (p, q) = (&from.end, &to.end);
+    let (v, w) = (&from.rates, &to.rates);
+    let r = 1.0 - t;
+    let (a, b) = (r * r * (1.0 + 2.0 * t), t * t * (1.0 + 2.0 * r));
+    let (c, d) = (h * r * r * t, -h * t * t * r);
+    let mut by_k = [DVec3::ZERO; N];
+    for (j, by) in by_k.iter_mut().enumerate() {
+        *by = a * p.by_k[j] + b * q.by_k[j] + c * v.by_k[j] + d * w.by_k[j];
+    }
+    let chord = (q.position - p.position) / h;
+    Along {
+        position: a * p.position + b * q.position + c * v.direction + d * w.direction,
+        direction: 6.0 * t * r * chord
+            + r * (r - 2.0 * t) * v.direction
+            + t * (t - 2.0 * r) * w.direction,
+        by_k,
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn with(k: &Helicoid, j: usize, change: f64) -> Helicoid {
-        let mut k = *k;
-        *[&mut k.kt, &mut k.kn, &mut k.kb, &mut k.alpha][j] += change;
-        k
-    }
-
-    fn along(k: &Helicoid, h: f64) -> Along<4> {
-        let mut here = Along::root();
-        for _ in 0..20 {
-            here = here.advance(k, h / 20.0).expect("clear");
-        }
-        here
-    }
-
-    #[test]
-    fn derivatives_are_those_of_the_line_and_its_frame() {
-        let k = Helicoid::new(2.0, -0.3, 0.8, 0.7);
-        let h = 1.4;
-        let here = along(&k, h);
-        let turning = here.turning(&k).expect("clear");
-        let e = 1e-6;
-        for (j, by_j) in turning.into_iter().enumerate() {
-            let (up, down) = (with(&k, j, e), with(&k, j, -e));
-            let (a, b) = (along(&up, h), along(&down, h));
-            let slope = (a.position - b.position) / (2.0 * e);
-            assert!(slope.distance(here.by_k[j]) < 1e-7, "parameter {j}");
-            let turned = (up.frame(a.theta) - down.frame(b.theta)) * (0.5 / e);
-            let spin = turned * k.frame(here.theta).transpose();
-            let vector = DVec3::new(spin.y_axis.z, spin.z_axis.x, spin.x_axis.y);
-            assert!(vector.distance(by_j) < 1e-7, "parameter {j}: {vector}");
-        }
-    }
-
-    #[test]
-    fn steps_agree_with_the_controlled_tracing() {
-        use crate::{PHelicoid, Piece, Tracing};
-        use tress_geometry::Frame;
-        let pieces = [Piece { k: Helicoid::new(3.0, 0.2, -0.5, 0.9), length: 2.0 }];
-        let hair = PHelicoid { root: Frame::IDENTITY, pieces: &pieces };
-        let tip = hair.tip(Tracing::Controlled(1e-11)).expect("clear");
-        let here = Along::<0>::root().advance(&pieces[0].k, 2.0).expect("clear");
-        assert!(here.position.distance(tip.position) < 2e-3);
-        assert!(along(&pieces[0].k, 2.0).position.distance(tip.position) < 5e-5);
-    }
-
-    #[test]
-    fn a_singular_line_ends_it() {
-        let sink = Helicoid::new(0.0, -1.0, 0.0, 0.0);
-        assert!(Along::<4>::root().advance(&sink, 1.0).is_none());
-        let wild = Helicoid::new(f64::INFINITY, 0.0, 0.0, 0.0);
-        assert!(Along::<0>::root().advance(&wild, 1.0).is_none());
-    }
-}
+mod tests;

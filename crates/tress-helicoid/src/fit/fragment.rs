@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3};
 use tress_geometry::Frame;
 
 use super::chain::{Chain, Points, bent};
+use super::flow::{FINE, ROUGH};
 use super::levenberg::{Effort, Prior, refine};
 use super::options::{FitOptions, Method, Roll};
 use super::simplex;
@@ -41,13 +42,28 @@ const MANY: usize = 10;
 /// Elevations that a fit with a free root is begun with.
 const STARTS: [f64; 3] = [0.0, 1.0, -1.0];
 
-/// Further ones where points seem to come from one helicoid.
-const OTHERS: [f64; 6] = [0.0, 0.6, -0.6, 1.6, -1.6, 3.0];
+/// Further ones where a single helicoid comes near a strand.
+const ELEVATIONS: [f64; 6] = [0.5, -0.5, 1.6, -1.6, 3.0, -3.0];
 
-/// Mean squared distances, over the squared length of the strand: above the first a strand is no
-/// single helicoid, below the second it is.
+/// Elevations with `kB` over the strand, where points may come from a helicoid.
+const CORNERS: [(f64, f64); 4] = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
+
+/// Mean squared distance, over the squared length of the strand, below which a strand is a helicoid
+/// but for rounding and the curves between steps.
+const EXACTLY: f64 = 1e-10;
+
+/// The same below which a strand may be one but for the arc lengths of its points.
 const NEARLY: f64 = 1e-6;
-const EXACTLY: f64 = 1e-11;
+
+/// How often those are found anew.
+const REALIGNMENTS: usize = 3;
+
+/// Another beginning is followed to its end if it comes within this factor of the best cost at
+/// once.
+const WORTH_IT: f64 = 4.0;
+
+/// A part that is farther from its strand than this many tolerances will not come within one.
+const GIVEN_UP: f64 = 2.0;
 
 const DRAFT: Effort = Effort { steps: 8, gain: 1e-2 };
 const LAST: Effort = Effort { steps: 30, gain: 1e-4 };
@@ -59,6 +75,7 @@ impl<'a> Fragment<'a> {
         Points {
             positions: &self.target.points[range.clone()],
             arc_lengths: &self.target.arc_lengths[range],
+            window: 1,
             end: None,
         }
     }
@@ -83,6 +100,7 @@ impl<'a> Fragment<'a> {
             root: self.base,
             pieces: vec![Piece { k, length: self.length() }],
             breaks: vec![arc_lengths[self.first], arc_lengths[self.last]],
+            turn: ROUGH,
         }
     }
 
@@ -138,15 +156,12 @@ impl<'a> Fragment<'a> {
     fn grow(&self, options: &FitOptions, free_root: bool) -> (Chain, usize) {
         let is_strand = self.first == 0 && self.last == self.target.last();
         let held = if is_strand { 1.0 } else { HELD };
-        let curvature = held * options.regularization;
-        let free_roll = options.roll == Roll::Bend;
         let prior = Prior {
-            curvature,
+            curvature: held * options.regularization,
             stretch: 0.01,
-            change: 0.0,
-            keep_changes: false,
+            keep: 0.0,
             free_root,
-            free_roll,
+            free_roll: options.roll == Roll::Bend,
         };
         let mut turning = FIRST_PART;
         let mut part = self.up_to(turning);
@@ -154,47 +169,102 @@ impl<'a> Fragment<'a> {
             return (part.chain(Helicoid::default()), part.last);
         };
         loop {
-            let whole = part.last == self.last;
-            let effort = if whole { LAST } else { DRAFT };
-            if !refine(&mut chain, part.points_and_end(), prior, effort) {
+            if !refine(&mut chain, part.points_and_end(), prior, DRAFT) {
                 return (part.chain(Helicoid::default()), part.last);
             }
-            if whole && is_strand && MANY <= self.last {
-                let free = Prior { curvature: 0.01 * curvature, ..prior };
-                chain = part.exact(chain, free);
-            }
-            if whole || !part.is_near(&chain, 2.0 * options.tolerance) {
+            if !part.is_near(&chain, GIVEN_UP * options.tolerance) {
                 return (chain, part.last);
+            }
+            if part.last == self.last {
+                break;
             }
             turning *= 2.0;
             part = Self { base: chain.root, ..self.up_to(turning) };
             chain = part.chain(chain.pieces[0].k);
         }
+        let tells = is_strand && MANY <= self.last;
+        let curvature = if tells { 0.01 * prior.curvature } else { prior.curvature };
+        let prior = Prior { curvature, ..prior };
+        refine(&mut chain, self.points_and_end(), prior, LAST);
+        if tells && self.is_near(&chain, options.tolerance) {
+            chain = self.exact(chain, prior);
+        }
+        (chain, self.last)
     }
 
-    /// Follows points that seem to come from one helicoid to where they came from: the frame's turn
-    /// about its tangent and `alpha` can stand for each other nearly, and only the right pair
-    /// passes the points exactly.
+    /// Follows points that may come from one helicoid to where they come from: the frame's turn
+    /// about its tangent, `alpha`, `kN` and `kB` can stand for each other nearly, and only the
+    /// right ones pass the points exactly.
     fn exact(&self, chain: Chain, prior: Prior) -> Chain {
-        let points = self.points();
-        let each = |chain: &Chain| chain.cost(points) / points.positions.len() as f64;
-        let mut best = chain;
-        if refine(&mut best, points, prior, LAST) && NEARLY < each(&best) {
+        let mut best = self.begun_elsewhere(chain, &ELEVATIONS.map(|alpha| (alpha, 0.0)), prior);
+        if NEARLY < self.mean_square(&best) {
             return best;
         }
-        for alpha in OTHERS {
-            if each(&best) < EXACTLY {
+        best.turn = FINE;
+        refine(&mut best, self.points(), prior, LAST);
+        best = self.begun_elsewhere(best, &CORNERS, prior);
+        self.realigned(best, prior)
+    }
+
+    fn mean_square(&self, chain: &Chain) -> f64 {
+        let points = self.points();
+        chain.cost(points) / points.positions.len() as f64
+    }
+
+    /// The best chain of what is found from here and from other beginnings, each `alpha` and `kB`
+    /// over the fragment; no further ones once the points are passed exactly.
+    fn begun_elsewhere(&self, chain: Chain, others: &[(f64, f64)], prior: Prior) -> Chain {
+        let points = self.points();
+        let begin = Self { base: chain.root, ..*self };
+        let k = Helicoid { kn: 0.0, ..chain.pieces[0].k };
+        let mut best = chain;
+        for &(alpha, kb) in others {
+            if self.mean_square(&best) < EXACTLY {
                 break;
             }
-            let base = best.root;
-            let Some(mut other) = (Self { base, ..*self }).turned(&best.pieces[0].k, alpha) else {
-                continue;
-            };
-            if refine(&mut other, points, prior, LAST) && other.cost(points) < best.cost(points) {
+            let Some(mut other) = begin.turned(&k, alpha) else { continue };
+            other.pieces[0].k.kb = kb / self.length();
+            other.turn = best.turn;
+            if refine(&mut other, points, prior, DRAFT)
+                && other.cost(points) < WORTH_IT * best.cost(points)
+                && refine(&mut other, points, prior, LAST)
+                && other.cost(points) < best.cost(points)
+            {
                 best = other;
             }
         }
         best
+    }
+
+    /// Follows points whose arc lengths are not known: where the line bends sharply, those of a
+    /// smooth curve through the points are not the helicoid's. Each is moved to where the chain
+    /// passes the point, and the chain follows.
+    fn realigned(&self, mut chain: Chain, prior: Prior) -> Chain {
+        let points = self.points();
+        let mut arc_lengths = points.arc_lengths.to_vec();
+        let last = points.arc_lengths.last().copied().unwrap_or_default();
+        for _ in 0..REALIGNMENTS {
+            let points = Points { arc_lengths: &arc_lengths, ..points };
+            let mut positions = Vec::with_capacity(arc_lengths.len());
+            if chain.trace(points, &mut positions).is_none() {
+                break;
+            }
+            let along = chain.tangents(points);
+            let off = points.positions.iter().zip(&positions).zip(&along);
+            let ahead: Vec<f64> = off.map(|((p, q), t)| (p - q).dot(*t)).collect();
+            for (s, ahead) in arc_lengths.iter_mut().zip(ahead) {
+                *s = (*s + ahead).min(last);
+            }
+            let ascend = arc_lengths.is_sorted();
+            let points = Points { arc_lengths: &arc_lengths, ..self.points() };
+            if !(ascend && refine(&mut chain, points, prior, LAST)) {
+                break;
+            }
+        }
+        // The hair ends where the strand does.
+        let ends = arc_lengths.last().copied().unwrap_or(last);
+        chain.pieces[0].length *= ends / last;
+        chain
     }
 
     /// The fragment as far as it turns by so many radians.

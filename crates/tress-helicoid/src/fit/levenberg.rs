@@ -4,6 +4,7 @@ use glam::DVec3;
 use nalgebra::{DMatrix, DVector};
 
 use super::chain::{Chain, OF_PIECE, OF_ROOT, Points};
+use crate::{Helicoid, Piece};
 
 /// How much further a fit is driven.
 #[derive(Clone, Copy, Debug)]
@@ -22,10 +23,9 @@ pub(super) struct Prior {
     pub(super) curvature: f64,
     /// A piece longer by a factor of e costs as much as this distance.
     pub(super) stretch: f64,
-    /// A bend that differs from the one before by one over the piece's length costs as much.
-    pub(super) change: f64,
-    /// Whether what changes already at the start is free: then only what is added costs.
-    pub(super) keep_changes: bool,
+    /// A curvature that differs from what it was at the start by one over the piece's length costs
+    /// as much.
+    pub(super) keep: f64,
     /// Whether the root may turn.
     pub(super) free_root: bool,
     /// Whether it may turn about its tangent.
@@ -39,27 +39,55 @@ struct Normal {
     cost: f64,
 }
 
-/// What the prior leaves as it is.
+/// What the chain is compared with: itself at the start.
 struct Rest {
     lengths: Vec<f64>,
-    /// Changes of the bend from each piece to the next.
-    changes: Vec<[f64; 2]>,
+    curvatures: Vec<[f64; 4]>,
 }
 
 impl Rest {
-    fn new(chain: &Chain, prior: Prior) -> Self {
-        let n = chain.pieces.len();
-        let change = |i| if prior.keep_changes { bend_change(chain, i) } else { [0.0; 2] };
+    fn new(chain: &Chain) -> Self {
         Self {
             lengths: chain.pieces.iter().map(|piece| piece.length).collect(),
-            changes: (1..n).map(change).collect(),
+            curvatures: chain.pieces.iter().map(|piece| curvatures(&piece.k)).collect(),
         }
     }
+}
 
-    /// How much more the bend changes to piece `i` than it did.
-    fn added(&self, chain: &Chain, i: usize) -> [f64; 2] {
-        let ([a, c], [b, d]) = (bend_change(chain, i), self.changes[i - 1]);
-        [a - b, c - d]
+/// The unknowns of a piece that are curvatures: `a, c, kN, kB`.
+fn curvatures(k: &Helicoid) -> [f64; 4] {
+    [k.kt, k.alpha * k.kt, k.kn, k.kb]
+}
+
+/// What one piece adds to the cost: a weight times the square of each unknown's distance from a
+/// place.
+struct Pull {
+    weights: [f64; OF_PIECE],
+    gradient: [f64; OF_PIECE],
+    cost: f64,
+}
+
+impl Pull {
+    /// Of piece `i`; `each` is how many points there are to a piece.
+    fn new(chain: &Chain, prior: Prior, rest: &Rest, i: usize, each: f64) -> Self {
+        let Piece { k, length } = chain.pieces[i];
+        let l = rest.lengths[i];
+        let own = each * (prior.curvature * l * l).powi(2);
+        let own = [BEND * own, BEND * own, own, own * (1.0 + k.alpha * k.alpha)];
+        let kept = each * (prior.keep * l * l).powi(2);
+        let mut pull = Self { weights: [0.0; 5], gradient: [0.0; 5], cost: 0.0 };
+        for (j, (value, before)) in curvatures(&k).into_iter().zip(rest.curvatures[i]).enumerate() {
+            pull.add(j, own[j], value);
+            pull.add(j, kept, value - before);
+        }
+        pull.add(4, each * (prior.stretch * l).powi(2), (length / l).ln());
+        pull
+    }
+
+    fn add(&mut self, unknown: usize, weight: f64, off: f64) {
+        self.weights[unknown] += weight;
+        self.gradient[unknown] += weight * off;
+        self.cost += weight * off * off;
     }
 }
 
@@ -77,27 +105,32 @@ const EXACT: f64 = 1e-26;
 
 /// Moves the chain towards the points until nothing is gained; false where it is singular.
 pub(super) fn refine(chain: &mut Chain, points: Points<'_>, prior: Prior, effort: Effort) -> bool {
-    let rest = Rest::new(chain, prior);
-    let mut damping = 1e-4;
+    let rest = Rest::new(chain);
+    let mut damping = 1e-2;
     for _ in 0..effort.steps {
         let Some(normal) = Normal::of(chain, points, prior, &rest) else { return false };
         if normal.cost < EXACT {
             return true;
         }
+        let mut growth = 4.0;
         let gained = loop {
             if MOST_DAMPING < damping {
                 return true;
             }
-            if let Some(step) = normal.step(damping) {
+            if let Some((step, promised)) = normal.step(damping) {
+                if promised < 0.2 * effort.gain * normal.cost {
+                    return true;
+                }
                 let moved = chain.moved(prior.free_root, step.as_slice());
-                let cost = moved.cost(points) + penalty(&moved, points, prior, &rest).0;
+                let cost = moved.cost(points) + penalty(&moved, points, prior, &rest);
                 if cost < normal.cost {
                     *chain = moved;
                     damping = (damping * 0.2).max(1e-10);
                     break 1.0 - cost / normal.cost;
                 }
             }
-            damping *= 6.0;
+            damping *= growth;
+            growth *= 2.0;
         };
         if gained < effort.gain {
             return true;
@@ -106,39 +139,10 @@ pub(super) fn refine(chain: &mut Chain, points: Points<'_>, prior: Prior, effort
     true
 }
 
-/// The prior's cost, and how it weighs each piece's curvatures and stretch.
-fn penalty(chain: &Chain, points: Points<'_>, prior: Prior, rest: &Rest) -> (f64, Vec<[f64; 2]>) {
-    let each = points.positions.len() as f64 / chain.pieces.len() as f64;
-    let weights = rest.lengths.iter().map(|l| {
-        let curvature = prior.curvature * l * l;
-        [each * curvature * curvature, each * (prior.stretch * l).powi(2)]
-    });
-    let weights: Vec<[f64; 2]> = weights.collect();
-    let of = |(i, [w, v]): (usize, &[f64; 2])| {
-        let (k, stretch) = (chain.pieces[i].k, (chain.pieces[i].length / rest.lengths[i]).ln());
-        let c = k.alpha * k.kt;
-        let kb = k.kb * k.kb * (1.0 + k.alpha * k.alpha);
-        w * (BEND * (k.kt * k.kt + c * c) + k.kn * k.kn + kb) + v * stretch * stretch
-    };
-    let own: f64 = weights.iter().enumerate().map(of).sum();
-    let changes = (1..rest.lengths.len()).map(|i| {
-        let [a, c] = rest.added(chain, i);
-        change_weight(points, prior, rest, i) * (a * a + c * c)
-    });
-    (own + changes.sum::<f64>(), weights)
-}
-
-/// How the bend changes from the piece before to piece `i`.
-fn bend_change(chain: &Chain, i: usize) -> [f64; 2] {
-    let (k, before) = (chain.pieces[i].k, chain.pieces[i - 1].k);
-    [k.kt - before.kt, k.alpha * k.kt - before.alpha * before.kt]
-}
-
-/// What such a change costs.
-fn change_weight(points: Points<'_>, prior: Prior, rest: &Rest, i: usize) -> f64 {
-    let each = points.positions.len() as f64 / rest.lengths.len() as f64;
-    let l = 0.5 * (rest.lengths[i] + rest.lengths[i - 1]);
-    each * (prior.change * l * l).powi(2)
+/// The prior's cost.
+fn penalty(chain: &Chain, points: Points<'_>, prior: Prior, rest: &Rest) -> f64 {
+    let each = points.per_piece(chain);
+    (0..chain.pieces.len()).map(|i| Pull::new(chain, prior, rest, i, each).cost).sum()
 }
 
 impl Normal {
@@ -167,51 +171,40 @@ impl Normal {
                 }
             }
         })?;
-        let (more, weights) = penalty(chain, points, prior, rest);
         let first = if prior.free_root { OF_ROOT } else { 0 };
         if prior.free_root && !prior.free_roll {
             matrix[0] += HELD;
         }
-        for (i, [w, v]) in weights.iter().enumerate() {
-            let piece = chain.pieces[i];
-            let k = piece.k;
-            let stretch = (piece.length / rest.lengths[i]).ln();
-            let values = [k.kt, k.alpha * k.kt, k.kn, k.kb, stretch];
-            for (j, value) in values.into_iter().enumerate() {
-                let weight = match j {
-                    0 | 1 => BEND * w,
-                    3 => w * (1.0 + k.alpha * k.alpha),
-                    4 => *v,
-                    _ => *w,
-                };
-                let at = first + i * OF_PIECE + j;
-                matrix[at * n + at] += weight;
-                gradient[at] += weight * value;
+        let each = points.per_piece(chain);
+        for i in 0..chain.pieces.len() {
+            let pull = Pull::new(chain, prior, rest, i, each);
+            cost += pull.cost;
+            let own = first + i * OF_PIECE..first + (i + 1) * OF_PIECE;
+            for (j, at) in own.clone().enumerate() {
+                matrix[at * n + at] += pull.weights[j];
+                gradient[at] += pull.gradient[j];
             }
-        }
-        for i in 1..rest.lengths.len() {
-            let weight = change_weight(points, prior, rest, i);
-            for (j, change) in rest.added(chain, i).into_iter().enumerate() {
-                let at = first + i * OF_PIECE + j;
-                let before = at - OF_PIECE;
-                matrix[at * n + at] += weight;
-                matrix[before * n + before] += weight;
-                matrix[at * n + before] -= weight;
-                gradient[at] += weight * change;
-                gradient[before] -= weight * change;
+            let held = chain.at_bounds(i, &gradient.as_slice()[own.clone()]);
+            for at in own.zip(held).filter_map(|(at, held)| held.then_some(at)) {
+                matrix[at * n + at] += HELD;
+                gradient[at] = 0.0;
             }
         }
         let matrix = DMatrix::from_row_slice(n, n, &matrix);
-        Some(Self { matrix, gradient, cost: cost + more })
+        Some(Self { matrix, gradient, cost })
     }
 
-    /// The damped step; `None` where the equations cannot be solved.
-    fn step(&self, damping: f64) -> Option<DVector<f64>> {
+    /// The damped step and how much it promises to take from the cost, were the chain linear;
+    /// `None` where the equations cannot be solved.
+    fn step(&self, damping: f64) -> Option<(DVector<f64>, f64)> {
         let mut damped = self.matrix.clone();
         for j in 0..damped.nrows() {
             damped[(j, j)] += damping * self.matrix[(j, j)] + f64::MIN_POSITIVE;
         }
         let step = damped.cholesky()?.solve(&-&self.gradient);
-        step.iter().all(|x| x.is_finite()).then_some(step)
+        let weight = |j: usize| damping * self.matrix[(j, j)];
+        let promised: f64 =
+            (0..step.len()).map(|j| step[j] * (weight(j) * step[j] - self.gradient[j])).sum();
+        promised.is_finite().then_some((step, promised))
     }
 }

@@ -17,14 +17,11 @@ use crate::frechet::{frechet, frechet_of_prefixes};
 const FEWEST_SEGMENTS: usize = 3;
 
 /// No points at all.
-const NOWHERE: Points<'_> = Points { positions: &[], arc_lengths: &[], end: None };
+const NOWHERE: Points<'_> = Points { positions: &[], arc_lengths: &[], window: 1, end: None };
 
 /// What parameters cost in pieces that are to be mixed, over what they cost alone: `kN` and `kB`
 /// add little to short pieces, and what they add is not alike from strand to strand.
-const ALIKE: f64 = 1000.0;
-
-/// What a change of the bend from piece to piece costs there: enough that noise is not followed.
-const CHANGE: f64 = 0.01;
+const ALIKE: f64 = 100.0;
 
 const TOGETHER: Effort = Effort { steps: 12, gain: 1e-2 };
 
@@ -40,18 +37,7 @@ pub(super) fn fit(target: &Target, options: &FitOptions) -> Option<Chain> {
             Pieces::UpTo(_) => HELD * options.regularization,
             Pieces::Equal(_) => ALIKE * options.regularization,
         };
-        let change = match options.pieces {
-            Pieces::UpTo(_) => 0.0,
-            Pieces::Equal(_) => CHANGE,
-        };
-        let prior = Prior {
-            curvature,
-            stretch: 0.01,
-            change,
-            keep_changes: false,
-            free_root: true,
-            free_roll,
-        };
+        let prior = Prior { curvature, stretch: 0.01, keep: 0.0, free_root: true, free_roll };
         let points = behind_root(target);
         let before = chain.clone();
         if !refine(&mut chain, points, prior, TOGETHER) {
@@ -63,7 +49,12 @@ pub(super) fn fit(target: &Target, options: &FitOptions) -> Option<Chain> {
 
 /// All points but the root.
 pub(super) fn behind_root(target: &Target) -> Points<'_> {
-    Points { positions: &target.points[1..], arc_lengths: &target.arc_lengths[1..], end: None }
+    Points {
+        positions: &target.points[1..],
+        arc_lengths: &target.arc_lengths[1..],
+        window: 1,
+        end: None,
+    }
 }
 
 fn split(target: &Target, most: usize, options: &FitOptions) -> Option<Chain> {
@@ -177,6 +168,7 @@ fn equal(target: &Target, n: usize, options: &FitOptions) -> Option<Chain> {
             let points = Points {
                 positions: &target.points[from..from + count],
                 arc_lengths: &target.arc_lengths[from..from + count],
+                window: 1,
                 end: (j + 1 < n).then(|| {
                     (target.tangents[last], 0.2 * (ends - begins) * (count as f64).sqrt())
                 }),
@@ -184,8 +176,7 @@ fn equal(target: &Target, n: usize, options: &FitOptions) -> Option<Chain> {
             let prior = Prior {
                 curvature: HELD * options.regularization,
                 stretch: 0.01,
-                change: 0.0,
-                keep_changes: false,
+                keep: 0.0,
                 free_root: j == 0,
                 free_roll: options.roll == Roll::Bend,
             };
