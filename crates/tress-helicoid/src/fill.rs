@@ -172,7 +172,7 @@ pub enum FillError {
 /// let pieces = Strands::from_counts([1, 1], vec![bent(1.0), bent(2.0)])?;
 /// let guides = HelicoidGroom::new(roots.to_vec(), pieces)?;
 /// let filled = fill(&guides, Roots::Points(&[DVec3::X]), &FillOptions::default())?;
-/// assert!((filled.hairs.hair(0).pieces[0].k.kt - 1.5).abs() < 1e-12);
+/// assert!((filled.hairs.hair(0).pieces[0].k.kt - 1.5).abs() < 1e-4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
