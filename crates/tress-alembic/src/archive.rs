@@ -135,13 +135,12 @@ impl<W: Write + Seek> Archive<W> {
         name: &str,
         source: Object,
     ) -> Result<Object, Error> {
-        if self.ancestors(source).next().is_none() {
-            return Err(Error::NoObject);
-        }
-        if self.ancestors(parent).any(|index| index == source.0) {
+        self.nodes.get(source.0).filter(|node| node.source.is_none()).ok_or(Error::NoObject)?;
+        if self.shows(source.0, &self.ancestors(parent).collect::<Vec<_>>()) {
             return Err(Error::Circular(name.into()));
         }
         let object = self.add(parent, name, schema::INSTANCE)?;
+        self.nodes[object.0].source = Some(source.0);
         let mut names: Vec<&str> =
             self.ancestors(source).map(|index| self.nodes[index].name.as_str()).collect();
         names.pop();
@@ -171,7 +170,7 @@ impl<W: Write + Seek> Archive<W> {
         let Self { out, written, nodes, .. } = self;
         let node = nodes.get_mut(object.0).ok_or(Error::NoObject)?;
         let properties = match node.schema {
-            Some(schema::INSTANCE) => return Err(Error::NoObject),
+            Some(_) if node.source.is_some() => return Err(Error::NoObject),
             Some(_) => node.schema()?.compound(".userProperties", "")?,
             None => &mut node.properties,
         };
@@ -254,11 +253,28 @@ impl<W: Write + Seek> Archive<W> {
         std::iter::successors(own, |index| self.nodes[*index].parent)
     }
 
+    /// Whether an object is one of `others` or holds one, instances included.
+    fn shows(&self, object: usize, others: &[usize]) -> bool {
+        let mut seen = vec![false; self.nodes.len()];
+        let mut pending = vec![object];
+        while let Some(index) = pending.pop() {
+            if others.contains(&index) {
+                return true;
+            }
+            if !std::mem::replace(&mut seen[index], true) {
+                let children = self.nodes.iter().enumerate();
+                let children = children.filter(|(_, node)| node.parent == Some(index));
+                pending.extend(children.map(|(child, _)| child));
+                pending.extend(self.nodes[index].source);
+            }
+        }
+        false
+    }
+
     fn add(&mut self, parent: Object, name: &str, schema: Schema) -> Result<Object, Error> {
         check_name(name)?;
         // What an instance holds, its source holds.
-        let holds = |node: &&Node| node.schema != Some(schema::INSTANCE);
-        self.nodes.get(parent.0).filter(holds).ok_or(Error::NoObject)?;
+        self.nodes.get(parent.0).filter(|node| node.source.is_none()).ok_or(Error::NoObject)?;
         let taken = |node: &Node| node.parent == Some(parent.0) && node.name == name;
         if self.nodes.iter().any(taken) {
             return Err(Error::Taken(name.into()));

@@ -20,6 +20,8 @@ pub(crate) struct Node {
     pub(crate) schema: Option<Schema>,
     /// The parent's place among the objects; nothing of the top object.
     pub(crate) parent: Option<usize>,
+    /// The place of what an instance stands for.
+    pub(crate) source: Option<usize>,
     pub(crate) properties: Compound,
     /// Samples written so far, and the time sampling they are of.
     pub(crate) samples: usize,
@@ -29,7 +31,8 @@ pub(crate) struct Node {
 impl Node {
     pub(crate) fn new(name: &str, schema: Option<Schema>, parent: Option<usize>) -> Self {
         let properties = Compound::default();
-        Self { name: name.into(), schema, parent, properties, samples: 0, time: 0 }
+        let (source, samples, time) = (None, 0, 0);
+        Self { name: name.into(), schema, parent, source, properties, samples, time }
     }
 
     /// The properties of its schema.

@@ -3,7 +3,7 @@
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 
 use ogawa_rs::{ArchiveReader, CurvesSchema, ObjectReader};
-use tress_alembic::{Archive, CurvesSample, Error, Kind, Scope};
+use tress_alembic::{Archive, CurvesSample, Error, Kind, Numbers, Scope, Values};
 
 /// A file in memory, as ogawa-rs wants it.
 struct Bytes(Cursor<Vec<u8>>);
@@ -68,4 +68,34 @@ fn another_reader_finds_the_same_curves() {
     let counts = schema.load_n_vertices_sample(0, &mut file).expect("counts");
     assert_eq!(counts, [7; 300]);
     assert!(schema.is_constant() && schema.has_width() && !schema.has_uv());
+}
+
+#[test]
+fn instances_take_nothing_in() {
+    let mut archive = Archive::new(Cursor::new(Vec::new()), "a test").expect("memory");
+    let time = archive.add_time(0.0, 1.0);
+    let head = archive.add_transform(archive.top(), "head", None).expect("a new name");
+    let again = archive.add_instance(archive.top(), "again", head).expect("a new name");
+    let refused = [
+        archive.add_transform(again, "inner", None).map(drop),
+        archive.add_curves(again, "hair", Kind::Linear, time).map(drop),
+        archive.set_user_property(again, "made_by", Values::scalars(Numbers::I8(&[1]))),
+        archive.write_curves(again, &CurvesSample::default()),
+    ];
+    for (i, outcome) in refused.into_iter().enumerate() {
+        assert!(matches!(outcome, Err(Error::NoObject)), "{i}: {outcome:?}");
+    }
+    assert!(matches!(archive.add_instance(head, "twice", again), Err(Error::NoObject)));
+}
+
+#[test]
+fn instances_do_not_hold_each_other() {
+    let mut archive = Archive::new(Cursor::new(Vec::new()), "a test").expect("memory");
+    let [a, b, c] = ["a", "b", "c"]
+        .map(|name| archive.add_transform(archive.top(), name, None).expect("a new name"));
+    archive.add_instance(a, "of b", b).expect("b holds nothing");
+    archive.add_instance(b, "of c", c).expect("c holds nothing");
+    archive.add_instance(c, "of a", a).expect_err("a shows b, which shows c");
+    archive.add_instance(c, "of the top", archive.top()).expect_err("the top holds c");
+    archive.add_instance(a, "of c", c).expect("c holds nothing");
 }
