@@ -39,6 +39,10 @@ pub(super) const HELD: f64 = 10.0;
 /// So many segments tell a helicoid's parameters without a prior.
 const MANY: usize = 10;
 
+/// What parameters cost there, over what they cost else: enough that what a straight strand leaves
+/// open stays 0.
+const TOLD: f64 = 0.01;
+
 /// Elevations that a fit with a free root is begun with.
 const STARTS: [f64; 3] = [0.0, 1.0, -1.0];
 
@@ -183,10 +187,10 @@ impl<'a> Fragment<'a> {
             chain = part.chain(chain.pieces[0].k);
         }
         let tells = is_strand && MANY <= self.last;
-        let curvature = if tells { 0.01 * prior.curvature } else { prior.curvature };
+        let curvature = if tells { TOLD * prior.curvature } else { prior.curvature };
         let prior = Prior { curvature, ..prior };
         refine(&mut chain, self.points_and_end(), prior, LAST);
-        if tells && self.is_near(&chain, options.tolerance) {
+        if tells && prior.free_roll && self.is_near(&chain, options.tolerance) {
             chain = self.exact(chain, prior);
         }
         (chain, self.last)
@@ -263,7 +267,7 @@ impl<'a> Fragment<'a> {
         }
         // The hair ends where the strand does.
         let ends = arc_lengths.last().copied().unwrap_or(last);
-        chain.pieces[0].length *= ends / last;
+        chain.pieces[0].length *= (ends / last).max(0.5);
         chain
     }
 

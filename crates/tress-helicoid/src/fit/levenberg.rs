@@ -91,8 +91,16 @@ impl Pull {
     }
 }
 
+/// Damping of the first step: with less, the first steps from a rough beginning lead too far and are
+/// taken back.
+const FIRST_DAMPING: f64 = 1e-2;
+
 /// Damping beyond which no step helps any more.
 const MOST_DAMPING: f64 = 1e7;
+
+/// A refinement ends without trying a step that promises less than this part of the gain it would
+/// have to make.
+const UNPROMISING: f64 = 0.2;
 
 /// What the bend costs over what `kN` and `kB` cost: the points tell it better than those.
 const BEND: f64 = 1e-4;
@@ -106,19 +114,21 @@ const EXACT: f64 = 1e-26;
 /// Moves the chain towards the points until nothing is gained; false where it is singular.
 pub(super) fn refine(chain: &mut Chain, points: Points<'_>, prior: Prior, effort: Effort) -> bool {
     let rest = Rest::new(chain);
-    let mut damping = 1e-2;
+    let mut damping = FIRST_DAMPING;
     for _ in 0..effort.steps {
         let Some(normal) = Normal::of(chain, points, prior, &rest) else { return false };
         if normal.cost < EXACT {
             return true;
         }
+        // Steps in vain raise the damping ever faster (Nielsen, "Damping parameter in Marquardt's
+        // method", 1999).
         let mut growth = 4.0;
         let gained = loop {
             if MOST_DAMPING < damping {
                 return true;
             }
             if let Some((step, promised)) = normal.step(damping) {
-                if promised < 0.2 * effort.gain * normal.cost {
+                if promised < UNPROMISING * effort.gain * normal.cost {
                     return true;
                 }
                 let moved = chain.moved(prior.free_root, step.as_slice());
