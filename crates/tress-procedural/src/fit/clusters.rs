@@ -11,6 +11,8 @@ use rayon::prelude::*;
 use tress_analysis::{ClusterError, k_means};
 
 use super::Smoothing;
+use super::courses::segments;
+use super::guides::set_lengths;
 use crate::EvenStrands;
 
 /// Stretches of a strand whose means are compared.
@@ -26,6 +28,8 @@ pub struct Initial {
     pub guides: EvenStrands,
     /// The strand each guide's root is taken from.
     pub root_strands: Vec<usize>,
+    /// The strands of each cluster.
+    pub members: Vec<Vec<usize>>,
 }
 
 /// Why no guides can be found.
@@ -103,7 +107,36 @@ pub fn initialize(
     );
     let mut guides = means.clone();
     guides.points_mut().par_chunks_mut(m).for_each(|guide| smoothing.apply(guide));
-    Ok(Initial { means, guides, root_strands })
+    Ok(Initial { means, guides, root_strands, members })
+}
+
+impl Initial {
+    /// Gives the guides the lengths that their strands have in the mean, each smoothed a little by
+    /// itself: a mean of strands that bend apart is shorter than any of them.
+    pub(super) fn restore_lengths(&mut self, strands: &EvenStrands, smoothing: &Smoothing) {
+        let m = strands.points_each();
+        self.guides.points_mut().par_chunks_mut(m).zip(&self.members).for_each(
+            |(guide, members)| set_lengths(guide, &mean_lengths(strands, members, smoothing)),
+        );
+    }
+}
+
+/// Of the steps that smooth a guide, the share that a strand's length is taken after: enough for
+/// frizz not to count as length, and little enough for the strand's own course to do.
+const LENGTH_SHARE: usize = 16;
+
+/// The mean lengths of the segments of strands, each smoothed a little by itself.
+fn mean_lengths(strands: &EvenStrands, members: &[usize], smoothing: &Smoothing) -> Vec<f64> {
+    let mut lengths = vec![0.0; strands.points_each() - 1];
+    let smoothing = Smoothing { steps: smoothing.steps / LENGTH_SHARE, ..*smoothing };
+    for &i in members {
+        let mut strand = strands.strand(i).to_vec();
+        smoothing.apply(&mut strand);
+        for (sum, segment) in lengths.iter_mut().zip(segments(&strand)) {
+            *sum += segment.length() / members.len() as f64;
+        }
+    }
+    lengths
 }
 
 /// The strand of a cluster whose root is nearest the mean root.

@@ -20,9 +20,10 @@ use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::parameters::LossError;
+use super::courses::segments;
+use super::parameters::{LossError, StageError};
 use super::weights::vertex_loss;
-use crate::{EvenStrands, Instances, Roots};
+use crate::{Bound, Chain, EvenStrands, Instances, Operator, ProceduralGroom, Roots, draw};
 
 /// How guides are refined.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,9 +35,10 @@ pub struct GuideOptions {
     pub corrections: usize,
     /// Steps of Adam after that. Default 20.
     pub steps: usize,
-    /// How far a tip may turn in a step, in radians, spread over the guide's points. Default 0.02.
+    /// How far a tip may turn in a step, in radians, spread over the guide's points. Default 0.005.
     pub turn: f64,
-    /// How much longer or shorter a segment may become in a step, as a fraction. Default 0.002.
+    /// How much longer or shorter a segment may become in a step, as a fraction. Default 0.0005;
+    /// 0 keeps the lengths.
     pub stretch: f64,
     /// `lambda`: how far gradients are smoothed over neighbouring guides. Default 10.
     pub smoothing: f64,
@@ -49,74 +51,151 @@ impl Default for GuideOptions {
         Self {
             corrections: 8,
             steps: 20,
-            turn: 0.02,
-            stretch: 0.002,
+            turn: 0.005,
+            stretch: 0.0005,
             smoothing: 10.0,
             directions: 0.3,
         }
     }
 }
 
-/// Moves the guides towards what the targets are on average; those of `sound` are compared.
+/// Moves the groom's guides so that its strands are in the mean what the targets are; those of
+/// `sound` are compared.
 ///
-/// `watch` is told the loss before every step. Gives the last loss.
+/// `operators` are those of the groom that do not leave strands where they are in the mean: clump
+/// and bend. Their random numbers are drawn anew at every step. `watch` is told the loss before
+/// every step. Gives the last loss.
 ///
 /// # Errors
 ///
-/// If the loss is not a number; the guides are then those of the last good step.
+/// If the groom cannot be built or the loss is not a number; the guides are then those of the last
+/// good step.
 ///
 /// # Panics
 ///
-/// If there is not one target and one row of `instances` a root.
+/// If there is not one target a strand.
 pub fn refine_guides(
-    guides: &mut EvenStrands,
-    guide_roots: &Roots,
-    instances: &Instances,
+    groom: &mut ProceduralGroom,
     targets: &EvenStrands,
     sound: &[usize],
+    operators: &[Operator],
     options: &GuideOptions,
     watch: &mut dyn FnMut(f64),
-) -> Result<f64, LossError> {
-    let m = guides.points_each();
-    let instances = instances.select(sound);
+) -> Result<f64, StageError> {
+    assert_eq!(targets.len(), groom.roots.len(), "a target for every strand");
+    groom.check()?;
+    let model = Expectation::new(groom, sound, operators)?;
     let targets = targets.select(sound);
-    let roots = targets.roots();
-    let filter = Filter::new(guides, guide_roots, options);
-    let mut state = Adam::new(guides.len() * (m - 1));
+    let filter = Filter::new(&groom.guides, &groom.guide_roots(), options);
+    let mut descent = Descent::new(&groom.guides);
     let mut last = 0.0;
-    let rounds = options.corrections + options.steps;
-    for step in 0..rounds {
-        let mut strands = instances.instance(guides, &roots);
+    for step in 0..options.corrections + options.steps {
+        let (instanced, numbers, mut strands) = model.strands(&groom.guides, step)?;
         let loss = vertex_loss(&strands, &targets);
         if !loss.is_finite() {
-            return Err(LossError { place: format!("at step {step} of the guides") });
+            return Err(LossError { place: format!("at step {step} of the guides") }.into());
         }
         watch(loss);
         last = loss;
         let residuals = strands.points_mut().par_iter_mut().zip(targets.points());
         residuals.for_each(|(x, target)| *x -= *target);
         if step < options.corrections {
-            correct(guides, &instances, &strands, &filter);
+            let stretch = operators.is_empty() && options.stretch > 0.0;
+            correct(&mut groom.guides, &model.instances, &strands, &filter, stretch);
             continue;
         }
-        let by_points = instances.pull_back(guides.len(), &strands);
-        let mut by_turning = vec![DVec3::ZERO; guides.len() * (m - 1)];
-        let mut by_length = by_turning.clone();
-        let rows = by_turning.par_chunks_mut(m - 1).zip(by_length.par_chunks_mut(m - 1));
-        rows.enumerate().for_each(|(g, (turning, length))| {
-            sweep(guides.strand(g), by_points.strand(g), turning, length);
-        });
-        filter.apply(&mut by_turning, m - 1);
-        filter.apply(&mut by_length, m - 1);
+        let by_points = model.pull_back(&groom.guides, &instanced, &numbers, &strands)?;
         let fade = 1.0 - (step - options.corrections) as f64 / options.steps as f64;
-        state.step(&mut by_turning, &mut by_length);
-        let (turn, stretch) = (fade * options.turn / (m as f64).sqrt(), fade * options.stretch);
-        let rows = by_turning.par_chunks(m - 1).zip(by_length.par_chunks(m - 1));
-        guides.points_mut().par_chunks_mut(m).zip(rows).for_each(|(guide, (turning, length))| {
-            advance(guide, turning, length, turn, stretch);
-        });
+        descent.step(&mut groom.guides, &by_points, &filter, fade, options);
     }
     Ok(last)
+}
+
+/// Evens guides out over the next neighbours: a guide is the mean of a few dozen strands and
+/// carries what these happened to draw, where neighbours are to be alike.
+pub(super) fn even_out(guides: &mut EvenStrands, roots: &Roots, options: &GuideOptions) {
+    let m = guides.points_each();
+    let near = GuideOptions { smoothing: options.smoothing.min(1.0), ..*options };
+    let filter = Filter::new(guides, roots, &near);
+    let each: Vec<DVec3> = guides.iter().flat_map(segments).collect();
+    let mut directions: Vec<DVec3> = each.iter().map(|e| e.normalize_or_zero()).collect();
+    let mut lengths: Vec<DVec3> = each.iter().map(|e| DVec3::X * e.length()).collect();
+    filter.apply(&mut directions, m - 1);
+    filter.apply(&mut lengths, m - 1);
+    for g in 0..guides.len() {
+        let row = g * (m - 1)..(g + 1) * (m - 1);
+        let guide = guides.strand_mut(g);
+        for (k, (d, length)) in directions[row.clone()].iter().zip(&lengths[row]).enumerate() {
+            guide[k + 1] = guide[k] + d.normalize_or_zero() * length.x;
+        }
+    }
+}
+
+/// What strands are in the mean: instanced, and moved by operators whose numbers are drawn anew.
+struct Expectation {
+    chain: Chain,
+    instances: Instances,
+    roots: Vec<DVec3>,
+    operator_guides: Vec<usize>,
+    operator_of: Vec<u32>,
+    seed: u64,
+}
+
+impl Expectation {
+    fn new(
+        groom: &ProceduralGroom,
+        sound: &[usize],
+        operators: &[Operator],
+    ) -> Result<Self, StageError> {
+        let chain = Chain { operators: operators.to_vec(), ..groom.chain.clone() };
+        Ok(Self {
+            chain,
+            instances: groom.instances()?.select(sound),
+            roots: sound.iter().map(|&i| groom.roots.positions[i]).collect(),
+            operator_guides: groom.operator_guides.iter().map(|&g| g as usize).collect(),
+            operator_of: sound.iter().map(|&i| groom.operator_of[i]).collect(),
+            seed: groom.seed,
+        })
+    }
+
+    /// Instanced strands, the numbers drawn for this step, and the strands that come out.
+    fn strands(
+        &self,
+        guides: &EvenStrands,
+        step: usize,
+    ) -> Result<(EvenStrands, Vec<Vec<f64>>, EvenStrands), StageError> {
+        let instanced = self.instances.instance(guides, &self.roots);
+        let seed = self.seed ^ (1 + step as u64);
+        let operators = &self.chain.operators;
+        let numbers = draw(operators, self.roots.len(), self.operator_guides.len(), seed);
+        let operator_guides = guides.select(&self.operator_guides);
+        let mut strands = instanced.clone();
+        self.chain.apply(&mut strands, &self.bound(&operator_guides, &numbers), seed)?;
+        Ok((instanced, numbers, strands))
+    }
+
+    fn bound<'a>(&'a self, guides: &'a EvenStrands, numbers: &'a [Vec<f64>]) -> Bound<'a> {
+        Bound { guides, operator_of: &self.operator_of, numbers }
+    }
+
+    /// The gradient by the guides' points from that by the strands that come out.
+    fn pull_back(
+        &self,
+        guides: &EvenStrands,
+        instanced: &EvenStrands,
+        numbers: &[Vec<f64>],
+        gradient: &EvenStrands,
+    ) -> Result<EvenStrands, StageError> {
+        let operator_guides = guides.select(&self.operator_guides);
+        let bound = self.bound(&operator_guides, numbers);
+        let by = self.chain.pull_back(instanced, &bound, gradient)?;
+        let mut by_points = self.instances.pull_back(guides.len(), &by.strands);
+        for (row, &guide) in by.guides.iter().zip(&self.operator_guides) {
+            let sums = by_points.strand_mut(guide).iter_mut().zip(row);
+            sums.for_each(|(sum, part)| *sum += *part);
+        }
+        Ok(by_points)
+    }
 }
 
 /// What all strands that are blended from a guide are off by in the mean, smoothed over neighbours
@@ -126,6 +205,7 @@ fn correct(
     instances: &Instances,
     residuals: &EvenStrands,
     filter: &Filter,
+    stretch: bool,
 ) {
     let m = guides.points_each();
     let mut shares = vec![0.0; guides.len()];
@@ -139,8 +219,26 @@ fn correct(
         mean.strand_mut(g)[0] = DVec3::ZERO;
     }
     filter.apply(mean.points_mut(), m);
-    let moved = guides.points_mut().iter_mut().zip(mean.points());
-    moved.for_each(|(x, mean)| *x -= *mean);
+    guides.points_mut().par_chunks_mut(m).zip(mean.points().par_chunks(m)).for_each(
+        |(guide, mean)| {
+            let lengths: Vec<f64> = segments(guide).map(DVec3::length).collect();
+            guide.iter_mut().zip(mean).for_each(|(x, mean)| *x -= *mean);
+            if !stretch {
+                set_lengths(guide, &lengths);
+            }
+        },
+    );
+}
+
+/// Gives the segments of a strand other lengths; directions stay.
+pub(super) fn set_lengths(strand: &mut [DVec3], lengths: &[f64]) {
+    let mut before = strand[0];
+    for (k, length) in lengths.iter().enumerate() {
+        let end = strand[k + 1];
+        let direction = (end - before).normalize_or_zero();
+        before = end;
+        strand[k + 1] = strand[k] + direction * *length;
+    }
 }
 
 /// The gradients by turning at each point but the tip and by the length of each segment (kept in
@@ -171,25 +269,52 @@ fn advance(guide: &mut [DVec3], turning: &[DVec3], length: &[DVec3], turn: f64, 
     }
 }
 
-/// The moments of Adam's steps (Kingma and Ba 2015, with their defaults).
+/// Adam's steps in turnings and lengths (Kingma and Ba 2015, with their defaults).
 ///
 /// Second moments are taken for a guide's point as a whole and not for each coordinate, so that
 /// steps do not depend on the axes.
-struct Adam {
+struct Descent {
     first: [Vec<DVec3>; 2],
     second: [Vec<f64>; 2],
     steps: i32,
 }
 
-impl Adam {
-    fn new(count: usize) -> Self {
+impl Descent {
+    fn new(guides: &EvenStrands) -> Self {
+        let count = guides.len() * (guides.points_each() - 1);
         let first = vec![DVec3::ZERO; count];
         let second = vec![0.0; count];
         Self { first: [first.clone(), first], second: [second.clone(), second], steps: 0 }
     }
 
+    /// Moves the guides against the gradient by their points; `fade` is the share of a step.
+    fn step(
+        &mut self,
+        guides: &mut EvenStrands,
+        by_points: &EvenStrands,
+        filter: &Filter,
+        fade: f64,
+        options: &GuideOptions,
+    ) {
+        let m = guides.points_each();
+        let mut by_turning = vec![DVec3::ZERO; guides.len() * (m - 1)];
+        let mut by_length = by_turning.clone();
+        let rows = by_turning.par_chunks_mut(m - 1).zip(by_length.par_chunks_mut(m - 1));
+        rows.enumerate().for_each(|(g, (turning, length))| {
+            sweep(guides.strand(g), by_points.strand(g), turning, length);
+        });
+        filter.apply(&mut by_turning, m - 1);
+        filter.apply(&mut by_length, m - 1);
+        self.directions(&mut by_turning, &mut by_length);
+        let (turn, stretch) = (fade * options.turn / (m as f64).sqrt(), fade * options.stretch);
+        let rows = by_turning.par_chunks(m - 1).zip(by_length.par_chunks(m - 1));
+        guides.points_mut().par_chunks_mut(m).zip(rows).for_each(|(guide, (turning, length))| {
+            advance(guide, turning, length, turn, stretch);
+        });
+    }
+
     /// Puts Adam's directions in place of the gradients.
-    fn step(&mut self, turning: &mut [DVec3], length: &mut [DVec3]) {
+    fn directions(&mut self, turning: &mut [DVec3], length: &mut [DVec3]) {
         self.steps += 1;
         let (one, two) = (1.0 - 0.9_f64.powi(self.steps), 1.0 - 0.999_f64.powi(self.steps));
         for (k, gradients) in [turning, length].into_iter().enumerate() {

@@ -13,7 +13,8 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use tress_edit::strand_rng;
 
-use super::parameters::{LossError, ParametersError};
+use super::courses::segments;
+use super::parameters::{LossError, StageError};
 use super::slices::Spectrum;
 use crate::operators::Draws;
 use crate::{Bound, EvenStrands, ProceduralGroom};
@@ -56,7 +57,7 @@ pub fn refine_numbers(
     sound: &[usize],
     options: &NumberOptions,
     watch: &mut dyn FnMut(f64),
-) -> Result<f64, ParametersError> {
+) -> Result<f64, StageError> {
     groom.check()?;
     let instanced = groom.instances()?.instance(&groom.guides, &groom.roots.positions);
     let guides = groom.operator_guide_points();
@@ -231,10 +232,6 @@ impl StrandLoss {
         }
         loss
     }
-}
-
-fn segments(strand: &[DVec3]) -> impl Iterator<Item = DVec3> + '_ {
-    strand.windows(2).map(|ends| ends[1] - ends[0])
 }
 
 /// Work space of one thread.

@@ -24,8 +24,10 @@ use crate::EvenStrands;
 
 /// Blocks of equal ranks that a slice is averaged in.
 pub(crate) const RANKS: usize = 24;
-/// Share of the spread of all slices that is added to a slice's own: below it is noise.
-const FLOOR: f64 = 0.02;
+/// Share of the spread of all slices that is added to a slice's own. Where strands are alike, at
+/// the root, errors of guides would otherwise outweigh everything else: with 0.02 in its place
+/// starts and scales that only the true guides bear out are not found.
+const FLOOR: f64 = 0.25;
 
 /// A direction that strands are projected on: weights over a stretch of segments or band of
 /// frequencies, times a direction in space.

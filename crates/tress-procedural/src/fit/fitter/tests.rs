@@ -4,6 +4,7 @@ use glam::DVec3;
 use tress_geometry::Strands;
 
 use super::*;
+use crate::fit::{GuideOptions, NumberOptions, ParameterOptions};
 use crate::{Curl, Frizz, Operator};
 
 /// Curls from three guides.
@@ -35,7 +36,7 @@ fn options() -> StageOptions {
     StageOptions {
         guides: 6,
         guide: GuideOptions { steps: 5, ..GuideOptions::default() },
-        parameters: ParameterOptions { searches: 1, rounds: 1, steps: 2, ..Default::default() },
+        parameters: ParameterOptions { rounds: 1, searches: 4, steps: 2, ..Default::default() },
         numbers: NumberOptions { steps: 3, ..NumberOptions::default() },
         ..StageOptions::default()
     }
