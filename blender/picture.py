@@ -41,7 +41,7 @@ def stage(obj):
     center, size = (low + high) / 2, float(np.linalg.norm(high - low))
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
     camera.data.type = "ORTHO"
-    camera.data.ortho_scale = 0.74 * size
+    camera.data.ortho_scale = 0.84 * size
     camera.location = center + np.array([0.35, -1.0, 0.25]) * 2 * size
     towards = center - np.array(camera.location)
     camera.rotation_euler = (
