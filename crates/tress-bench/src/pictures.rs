@@ -6,6 +6,7 @@ mod droop;
 mod growing;
 mod operators;
 mod posing;
+mod procedural;
 mod ruffling;
 mod switchback;
 
@@ -34,6 +35,7 @@ const MAKERS: &[(&str, Maker)] = &[
     ("droop", droop::make),
     ("switchback", switchback::make),
     ("growing", growing::make),
+    ("procedural", procedural::make),
     ("operators", operators::make),
     ("analysis", analysis::make),
 ];

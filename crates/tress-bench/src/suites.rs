@@ -8,6 +8,7 @@ mod growing;
 mod helicoid;
 mod interchange;
 mod pictures;
+mod procedural;
 mod sculpting;
 mod switchback;
 
@@ -33,6 +34,7 @@ const SUITES: &[Suite] = &[
     Suite { names: helicoid::NAMES, run: helicoid::run },
     Suite { names: interchange::NAMES, run: interchange::run },
     Suite { names: pictures::NAMES, run: pictures::run },
+    Suite { names: procedural::NAMES, run: procedural::run },
     Suite { names: sculpting::NAMES, run: sculpting::run },
     Suite { names: switchback::NAMES, run: switchback::run },
 ];

@@ -53,6 +53,10 @@ pub(crate) struct GroomFitArgs {
     /// Follow the formulas of the authors' published program where they differ from the paper
     #[arg(long)]
     pub(crate) published_program: bool,
+    /// The head that hair grows on, .obj or .ply in the strands' unit: no strand is given to an
+    /// operator guide across a parting that would draw it through the head
+    #[arg(long, value_name = "FILE")]
+    pub(crate) head: Option<PathBuf>,
     /// Keep what each stage finds in this folder
     #[arg(long, value_name = "FOLDER")]
     pub(crate) checkpoint: Option<PathBuf>,
@@ -98,6 +102,9 @@ pub(super) fn run(args: &GroomFitArgs, everywhere: &Everywhere) -> Result<Report
         Some(folder) if args.resume => Fitter::resume(folder, &target, chain, options)?,
         _ => Fitter::new(&target, chain, options)?,
     };
+    if let Some(head) = &args.head {
+        fitter.set_head(tress::io::mesh::read(head)?.mesh);
+    }
     let outcome = advance(&mut fitter, args.checkpoint.as_deref(), &progress);
     // Whatever a stage that failed had found is worth keeping.
     let Some(groom) = fitter.groom() else {
