@@ -4,6 +4,7 @@ mod analysis;
 mod blending;
 mod droop;
 mod growing;
+mod helicoid;
 mod operators;
 mod posing;
 mod procedural;
@@ -36,6 +37,7 @@ const MAKERS: &[(&str, Maker)] = &[
     ("switchback", switchback::make),
     ("growing", growing::make),
     ("procedural", procedural::make),
+    ("helicoid", helicoid::make),
     ("operators", operators::make),
     ("analysis", analysis::make),
 ];

@@ -5,7 +5,7 @@ mod droop;
 mod fitting;
 mod formats;
 mod growing;
-mod helicoid;
+pub(crate) mod helicoid;
 mod interchange;
 mod pictures;
 mod procedural;

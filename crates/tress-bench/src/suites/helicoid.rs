@@ -11,6 +11,9 @@ use tress::helicoid::{
     Roots, Tracing, fill, fit, fit_strand, sample, shepard,
 };
 
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
 use crate::Outcome;
 use crate::grooms;
 use crate::metric::{Bar, Figures, say};
@@ -26,23 +29,33 @@ pub(crate) const NAMES: &[&str] = &[
     "helicoid_fit_coils_per_second",
     "helicoid_fit_coils_not_worse",
     "helicoid_round_trip",
+    "helicoid_round_trip_within",
+    "helicoid_round_trip_chains",
     "helicoid_euler_error",
     "helicoid_coils10_position",
     "helicoid_coils10_curvature",
+    "helicoid_coils10_mean_curvature",
+    "helicoid_coils10_distribution",
     "helicoid_coils50_position",
     "helicoid_coils50_curvature",
+    "helicoid_coils50_mean_curvature",
+    "helicoid_coils50_distribution",
     "helicoid_straight10_position",
     "helicoid_straight10_curvature",
+    "helicoid_straight10_mean_curvature",
+    "helicoid_straight10_distribution",
     "helicoid_straight50_position",
     "helicoid_straight50_curvature",
+    "helicoid_straight50_mean_curvature",
+    "helicoid_straight50_distribution",
 ];
 
 pub(crate) fn run(figures: &mut Figures) -> Outcome {
     filling(figures)?;
     fitting(figures)?;
     round_trip(figures)?;
-    reconstruction(figures, "coils", "digitalsalon_harolongo.data", 12)?;
-    reconstruction(figures, "straight", "yuksel_straight.hair", 4)
+    reconstruction(figures, "coils", "digitalsalon_harolongo.data", 20, 21)?;
+    reconstruction(figures, "straight", "yuksel_straight.hair", 8, 16)
 }
 
 /// 90,000 p-helicoids from nine guides of four pieces.
@@ -72,7 +85,7 @@ fn filling(figures: &mut Figures) -> Outcome {
 }
 
 /// Some strands of a groom, at equal arc lengths.
-fn resampled(groom: &Groom, take: usize, points: usize) -> Outcome<Groom> {
+pub(crate) fn resampled(groom: &Groom, take: usize, points: usize) -> Outcome<Groom> {
     let strands = groom.strands();
     let step = (strands.len() / take).max(1);
     let mut out = Strands::default();
@@ -116,30 +129,59 @@ fn fitting(figures: &mut Figures) -> Outcome {
     Ok(())
 }
 
-/// Known helicoids are found again: greatest distance over length. And what Euler's method makes of
-/// them with 30 steps.
+/// Known helicoids, drawn at random, are found again: the greatest distance at equal arc lengths
+/// over the length, how many are within 1e-4, and the same for chains of three of them. And what
+/// Euler's method makes of them with 30 steps.
 fn round_trip(figures: &mut Figures) -> Outcome {
+    let mut rng = Pcg64Mcg::seed_from_u64(7);
+    let one = FitOptions { pieces: Pieces::UpTo(1), ..FitOptions::default() };
     let (mut worst, mut euler): (f64, f64) = (0.0, 0.0);
-    let options = FitOptions { pieces: Pieces::UpTo(1), ..FitOptions::default() };
-    for i in 0..40_i32 {
-        let part = |n: i32| f64::from((i * n) % 11) / 5.0 - 1.0;
-        let k = Helicoid::new(0.2 + 0.6 * (1.0 + part(3)), 0.15 * part(5), 0.2 * part(7), part(4));
-        let pieces = [Piece { k, length: 4.0 }];
-        let hair = PHelicoid { root: Frame::IDENTITY, pieces: &pieces };
-        let mut points = vec![DVec3::ZERO; 60];
+    let (mut hairs, mut within) = (0_u32, 0_u32);
+    for _ in 0..400 {
+        let known = drawn(&mut rng, 4.0);
+        let Some(apart) = found_again(&[known], &one)? else { continue };
+        worst = worst.max(apart);
+        hairs += 1;
+        within += u32::from(apart <= 1e-4);
+        let hair = PHelicoid { root: Frame::IDENTITY, pieces: &[known] };
+        let [mut points, mut again] = [[DVec3::ZERO; 60]; 2];
         hair.sample_evenly(Tracing::Controlled(1e-10), &mut points)?;
-        let fit =
-            fit_strand(&points, &options).map_err(tress::geometry::polyline::Defect::describe)?;
-        let found = PHelicoid { root: fit.root, pieces: &fit.pieces };
-        let mut again = points.clone();
-        found.sample_evenly(Tracing::Controlled(1e-10), &mut again)?;
-        worst = worst.max(greatest(&points, &again) / 4.0);
         hair.sample_evenly(Tracing::Euler(30), &mut again)?;
         euler = euler.max(greatest(&points, &again) / 4.0);
     }
+    let within = 100.0 * f64::from(within) / f64::from(hairs);
     figures.add("helicoid_round_trip", worst, "lengths", Bar::AtMost(1e-4));
+    figures.add("helicoid_round_trip_within", within, "%", Bar::None);
+    let fine = FitOptions { tolerance: 1e-4, ..FitOptions::default() };
+    let mut worst: f64 = 0.0;
+    for _ in 0..100 {
+        let known: Vec<Piece> = (0..3).map(|_| drawn(&mut rng, 2.0)).collect();
+        worst = worst.max(found_again(&known, &fine)?.unwrap_or(0.0));
+    }
+    figures.add("helicoid_round_trip_chains", worst, "lengths", Bar::None);
     figures.add("helicoid_euler_error", euler, "lengths", Bar::None);
     Ok(())
+}
+
+/// A helicoid that bends by up to 11 radians in a length of 4.
+fn drawn(rng: &mut Pcg64Mcg, length: f64) -> Piece {
+    let kt = rng.random_range(-1.5..1.5);
+    let (kn, kb) = (rng.random_range(-0.15..0.3), rng.random_range(-0.3..0.3));
+    Piece { k: Helicoid::new(kt, kn, kb, rng.random_range(-1.5..1.5)), length }
+}
+
+/// How far the fit to 60 points of a hair is from it, over its length; `None` where the hair runs
+/// into a singular line.
+fn found_again(known: &[Piece], options: &FitOptions) -> Outcome<Option<f64>> {
+    let hair = PHelicoid { root: Frame::IDENTITY, pieces: known };
+    let [mut points, mut again] = [[DVec3::ZERO; 60]; 2];
+    if hair.sample_evenly(Tracing::Controlled(1e-10), &mut points).is_err() {
+        return Ok(None);
+    }
+    let fit = fit_strand(&points, options).map_err(tress::geometry::polyline::Defect::describe)?;
+    let found = PHelicoid { root: fit.root, pieces: &fit.pieces };
+    found.sample_evenly(Tracing::Controlled(1e-10), &mut again)?;
+    Ok(Some(greatest(&points, &again) / hair.length()))
 }
 
 fn greatest(a: &[DVec3], b: &[DVec3]) -> f64 {
@@ -147,14 +189,20 @@ fn greatest(a: &[DVec3], b: &[DVec3]) -> f64 {
 }
 
 /// A part of the strands as guides, the others filled in: errors over those of the weighted mean of
-/// the same guides' points.
-fn reconstruction(figures: &mut Figures, kind: &str, file: &str, pieces: usize) -> Outcome {
-    let points = 41;
-    let groom = resampled(&grooms::groom(file, 2000, 21)?, 2000, points)?;
+/// the same guides' points. All strands have as many points as the file's, at equal arc lengths.
+fn reconstruction(
+    figures: &mut Figures,
+    kind: &str,
+    file: &str,
+    pieces: usize,
+    points: usize,
+) -> Outcome {
+    let groom = grooms::groom(file, 2000, points)?;
+    let groom = resampled(&groom, groom.strands().len(), points)?;
     let strands = groom.strands();
     let (fit_options, fill_options) = (
         FitOptions { pieces: Pieces::Equal(pieces), roll: Roll::Steady, ..FitOptions::default() },
-        FillOptions { hold: 2 * pieces, ..FillOptions::default() },
+        FillOptions { hold: 4, ..FillOptions::default() },
     );
     for (share, every) in [(10, 10), (50, 2)] {
         let (guides, rest): (Vec<usize>, Vec<usize>) =
@@ -163,42 +211,83 @@ fn reconstruction(figures: &mut Figures, kind: &str, file: &str, pieces: usize) 
         let roots: Vec<DVec3> = rest.iter().map(|&i| strands.strand(i)[0]).collect();
         let filled = fill(&fitted.hairs, Roots::Points(&roots), &fill_options)?;
         let ours = sample(&filled.hairs, points, Tracing::default())?;
-        let at: Vec<DVec3> = guides.iter().map(|&i| strands.strand(i)[0]).collect();
-        let mut weights = Vec::new();
-        let mut plain = Strands::default();
-        for &root in &roots {
-            shepard(root, &at, &fill_options, &mut weights);
-            let mean = |j: usize| -> DVec3 {
-                let moved = |&(g, w): &(usize, f64)| w * (strands.strand(guides[g])[j] - at[g]);
-                root + weights.iter().map(moved).sum::<DVec3>()
-            };
-            plain.push((0..points).map(mean))?;
-        }
+        let plain = mean_of_points(&groom.select(&guides), &roots, &fill_options)?;
         let truth = strands.select(rest.iter().copied());
-        let (p, c) = errors(&truth, ours.strands());
-        let (q, d) = errors(&truth, &plain);
-        say(&format!(
-            "# {file} at {share} %: position {p:.4} against {q:.4}, curvature {c:.4} against {d:.4}"
-        ));
-        let name = format!("helicoid_{kind}{share}");
-        let (position, curvature) =
-            if share == 10 { (Bar::AtMost(1.1), Bar::AtMost(1.0)) } else { (Bar::None, Bar::None) };
-        figures.add(&format!("{name}_position"), p / q, "", position);
-        figures.add(&format!("{name}_curvature"), c / d, "", curvature);
+        let (a, b) = (Errors::new(&truth, ours.strands()), Errors::new(&truth, &plain));
+        say(&format!("# {file} at {share} %: {a:?}, mean of points {b:?}"));
+        let bars = if share == 10 {
+            [Bar::AtMost(1.1), Bar::AtMost(1.0), Bar::None, Bar::None]
+        } else {
+            [Bar::None; 4]
+        };
+        let ratios = [
+            ("position", a.position / b.position),
+            ("curvature", a.curvature / b.curvature),
+            ("mean_curvature", a.mean_curvature / b.mean_curvature),
+            ("distribution", a.distribution / b.distribution),
+        ];
+        for ((what, ratio), bar) in ratios.into_iter().zip(bars) {
+            figures.add(&format!("helicoid_{kind}{share}_{what}"), ratio, "", bar);
+        }
     }
     Ok(())
 }
 
-/// Root mean square errors of positions and of curvatures (the magnitude at every inner point).
-fn errors(truth: &Strands<DVec3>, other: &Strands<DVec3>) -> (f64, f64) {
-    let square: f64 =
-        truth.points().iter().zip(other.points()).map(|(a, b)| a.distance_squared(*b)).sum();
-    let curvatures = |strands: &Strands<DVec3>| -> Vec<f64> {
-        strands.iter().flat_map(|points| points.windows(3).map(bend)).collect()
-    };
-    let (a, b) = (curvatures(truth), curvatures(other));
-    let off: f64 = a.iter().zip(&b).map(|(a, b)| (a - b) * (a - b)).sum();
-    ((square / truth.points().len() as f64).sqrt(), (off / a.len() as f64).sqrt())
+/// Interpolation point by point: from each root the weighted mean of the guides' own points.
+pub(crate) fn mean_of_points(
+    guides: &Groom,
+    roots: &[DVec3],
+    options: &FillOptions,
+) -> Outcome<Strands<DVec3>> {
+    let guides = guides.strands();
+    let at: Vec<DVec3> = guides.iter().map(|points| points[0]).collect();
+    let mut weights = Vec::new();
+    let mut hairs = Strands::default();
+    for &root in roots {
+        shepard(root, &at, options, &mut weights);
+        let mean = |j: usize| -> DVec3 {
+            let moved = |&(g, w): &(usize, f64)| w * (guides.strand(g)[j] - at[g]);
+            root + weights.iter().map(moved).sum::<DVec3>()
+        };
+        hairs.push((0..guides.strand(0).len()).map(mean))?;
+    }
+    Ok(hairs)
+}
+
+/// How far hairs are from others. A curvature is the angle between two segments over their mean
+/// length.
+#[derive(Debug)]
+struct Errors {
+    /// Root mean square distance of points at equal arc lengths.
+    position: f64,
+    /// Root mean square difference of curvature at equal arc lengths.
+    curvature: f64,
+    /// Root mean square difference of the hairs' mean curvatures.
+    mean_curvature: f64,
+    /// Wasserstein distance (the mean difference of equal quantiles) of the curvatures of all points.
+    distribution: f64,
+}
+
+impl Errors {
+    fn new(truth: &Strands<DVec3>, other: &Strands<DVec3>) -> Self {
+        let off = truth.points().iter().zip(other.points()).map(|(a, b)| a.distance(*b));
+        let [mut a, mut b] = [truth, other].map(|strands| -> Vec<f64> {
+            strands.iter().flat_map(|points| points.windows(3).map(bend)).collect()
+        });
+        let [c, d] = [truth, other].map(|strands| strands.iter().map(mean_bend));
+        let means = c.zip(d).map(|(c, d)| c - d);
+        let (position, mean_curvature) = (rms(off), rms(means));
+        let curvature = rms(a.iter().zip(&b).map(|(a, b)| a - b));
+        a.sort_unstable_by(f64::total_cmp);
+        b.sort_unstable_by(f64::total_cmp);
+        let apart: f64 = a.iter().zip(&b).map(|(a, b)| (a - b).abs()).sum();
+        Self { position, curvature, mean_curvature, distribution: apart / a.len() as f64 }
+    }
+}
+
+fn rms(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, n) = values.fold((0.0, 0.0), |(sum, n), value| (sum + value * value, n + 1.0));
+    (sum / n).sqrt()
 }
 
 /// Angle between two segments over their mean length.
@@ -206,4 +295,8 @@ fn bend(points: &[DVec3]) -> f64 {
     let (a, b) = (points[1] - points[0], points[2] - points[1]);
     let length = 0.5 * (a.length() + b.length());
     if length == 0.0 { 0.0 } else { a.angle_between(b) / length }
+}
+
+fn mean_bend(points: &[DVec3]) -> f64 {
+    points.windows(3).map(bend).sum::<f64>() / (points.len() - 2) as f64
 }
