@@ -1,9 +1,10 @@
-//! `tress groom`: procedural grooms, built, edited and found.
+//! `tress groom`: procedural grooms, begun, built, edited and found.
 
 mod build;
 mod curves;
 mod edit;
 mod fit;
+mod new;
 
 use std::path::{Path, PathBuf};
 
@@ -27,6 +28,7 @@ impl GroomArgs {
     /// The files to write.
     pub(super) fn outputs(&self) -> Vec<&Path> {
         match &self.command {
+            GroomCommand::New(args) => vec![&args.output],
             GroomCommand::Build(args) => vec![&args.output],
             GroomCommand::Edit(args) => vec![&args.output],
             GroomCommand::Fit(args) => {
@@ -39,6 +41,7 @@ impl GroomArgs {
 
 #[derive(Debug, Subcommand)]
 enum GroomCommand {
+    New(new::NewArgs),
     Build(build::BuildArgs),
     Edit(edit::EditArgs),
     Fit(fit::GroomFitArgs),
@@ -46,6 +49,7 @@ enum GroomCommand {
 
 pub(crate) fn run(args: &GroomArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     match &args.command {
+        GroomCommand::New(args) => new::run(args, everywhere),
         GroomCommand::Build(args) => build::run(args, everywhere),
         GroomCommand::Edit(args) => edit::run(args, everywhere),
         GroomCommand::Fit(args) => fit::run(args, everywhere),

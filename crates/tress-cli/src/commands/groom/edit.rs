@@ -11,22 +11,34 @@ use crate::failure::Failure;
 use crate::report::{Report, short};
 use crate::target;
 
-/// Change parameters of a procedural groom
+/// Change a procedural groom
 ///
-/// The same can be done by hand in the .ron file, and more: operators added, taken away or put in
-/// another order.
+/// Parameters can be changed by hand in the .ron file as well, and more: operators added, taken
+/// away or put in another order.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   tress groom edit groom.ron tighter.ron --set curl.radius=0.4 --set curl.frequency=0.3
-  tress groom edit groom.ron smooth.ron --set frizz.amplitude=0")]
+  tress groom edit groom.ron smooth.ron --set frizz.amplitude=0
+  tress groom edit groom.ron parted.ron --scalp head.obj --neighbors 6")]
 pub(crate) struct EditArgs {
     /// The procedural groom, .ron
     pub(crate) groom: PathBuf,
     /// The procedural groom to write, .ron
     pub(crate) output: PathBuf,
     /// A parameter and its value; of the first operator of that name
-    #[arg(long, value_name = "OPERATOR.PARAMETER=X", required = true)]
+    #[arg(long, value_name = "OPERATOR.PARAMETER=X", required_unless_present = "scalp")]
     pub(crate) set: Vec<Setting>,
+    /// Blend strands anew from the guides nearest over this mesh of the scalp, .obj or .ply: those
+    /// across a parting or an ear are far away there
+    #[arg(long, value_name = "MESH")]
+    pub(crate) scalp: Option<PathBuf>,
+    /// Guides a strand is blended from
+    #[arg(long, value_name = "N", default_value_t = 4, requires = "scalp")]
+    pub(crate) neighbors: usize,
+    /// Distance at which a guide weighs 1/e of one at the root [default: the mean distance of
+    /// neighboring guides]
+    #[arg(long, value_name = "D", requires = "scalp", allow_negative_numbers = true)]
+    pub(crate) sigma: Option<f64>,
 }
 
 /// `curl.radius=0.4`
@@ -64,6 +76,11 @@ pub(super) fn run(args: &EditArgs, everywhere: &Everywhere) -> Result<Report, Fa
         report.set(&name, setting.value);
         report.say(&name, format!(" {} was {}", short(setting.value), short(before)));
     }
+    if let Some(mesh) = &args.scalp {
+        super::new::over(mesh, &mut groom, args.neighbors, args.sigma)?;
+        report.set("scalp", mesh);
+        report.say("blended", format!("from guides nearest over {}", mesh.display()));
+    }
     // Out of range is an error now and not when the groom is built.
     groom.build()?;
     groom.write(&args.output)?;
@@ -80,6 +97,11 @@ fn change(groom: &mut ProceduralGroom, setting: &Setting) -> Result<f64, Failure
     let operator = operator.ok_or_else(|| {
         Failure::Failed(format!("no operator {:?} in this groom: {there}", setting.operator))
     })?;
+    if operator.parameters().is_empty() {
+        let name = operator.name();
+        let message = format!("options of {name} are changed in the .ron file, not by --set");
+        return Err(Failure::Failed(message));
+    }
     let parameters: Vec<&str> = operator.parameters().iter().map(|p| p.name).collect();
     let slot = parameters.iter().position(|name| *name == setting.parameter);
     let slot = slot.and_then(|slot| operator.values_mut().into_iter().nth(slot));
