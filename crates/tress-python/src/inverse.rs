@@ -40,6 +40,8 @@ struct Words {
 ///     neighbors: Guides that a strand is blended from.
 ///     own_weights: Whether a strand's guides are weighted as brings it nearest, or by the distance
 ///         of roots alone.
+///     alternations: How often guides and parameters are found again, each with what the other came
+///         to.
 ///     seed: The same seed finds the same groom.
 ///     root_weight, smoothing, guide, parameters, numbers, flaws: As in the RON files that the
 ///         program's `groom fit --options` reads, those with several parts as dictionaries.
@@ -56,8 +58,8 @@ struct Words {
 #[pyfunction]
 #[pyo3(signature = (groom, operators, *, progress=None, **options),
        text_signature = "(groom, operators, *, guides=None, operator_guides=None, points=None, \
-                         neighbors=None, own_weights=None, seed=None, root_weight=None, \
-                         smoothing=None, guide=None, parameters=None, numbers=None, flaws=None, \
+                         neighbors=None, own_weights=None, alternations=None, seed=None, \
+                         root_weight=None, smoothing=None, guide=None, parameters=None, numbers=None, flaws=None, \
                          progress=None)")]
 pub(crate) fn fit_procedural<'py>(
     py: Python<'py>,

@@ -401,6 +401,7 @@ def fit_procedural(
     points: int | None = None,
     neighbors: int | None = None,
     own_weights: bool | None = None,
+    alternations: int | None = None,
     seed: int | None = None,
     root_weight: float | None = None,
     smoothing: Mapping[str, Any] | None = None,
