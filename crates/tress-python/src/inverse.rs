@@ -59,8 +59,8 @@ struct Words {
 #[pyo3(signature = (groom, operators, *, progress=None, **options),
        text_signature = "(groom, operators, *, guides=None, operator_guides=None, points=None, \
                          neighbors=None, own_weights=None, alternations=None, seed=None, \
-                         root_weight=None, smoothing=None, guide=None, parameters=None, numbers=None, flaws=None, \
-                         progress=None)")]
+                         root_weight=None, smoothing=None, guide=None, parameters=None, \
+                         numbers=None, flaws=None, progress=None)")]
 pub(crate) fn fit_procedural<'py>(
     py: Python<'py>,
     groom: &Bound<'_, Groom>,
