@@ -15,7 +15,6 @@
 mod abreast;
 mod linkage;
 
-use std::collections::BTreeSet;
 use std::num::NonZero;
 
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
@@ -130,7 +129,7 @@ fn ways<'a>(groom: &'a Groom, analysis: &'a Analysis) -> Vec<Option<Way<'a>>> {
 fn neighbours(ways: &[Option<Way<'_>>]) -> Vec<[usize; 2]> {
     let lengths = ways.iter().flatten().map(Way::length);
     let Some(middle) = Quantiles::of(lengths).map(|q| q.median) else { return vec![] };
-    let mut pairs = BTreeSet::new();
+    let mut pairs = Vec::new();
     for height in HEIGHTS.map(|share| share * middle) {
         let there = |(i, way): (usize, &Option<Way<'_>>)| {
             let way = way.as_ref().filter(|way| height <= way.length())?;
@@ -152,7 +151,9 @@ fn neighbours(ways: &[Option<Way<'_>>]) -> Vec<[usize; 2]> {
             pairs.extend(found.into_iter().filter(|&j| j != i).map(|j| [i.min(j), i.max(j)]));
         }
     }
-    pairs.into_iter().collect()
+    pairs.par_sort_unstable();
+    pairs.dedup();
+    pairs
 }
 
 /// Affinities as shares of how close the strands' company is.
