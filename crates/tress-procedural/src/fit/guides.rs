@@ -33,7 +33,7 @@ pub struct GuideOptions {
     /// smoothed over neighbouring guides. Default 8; they find what neighbours have in common in a
     /// few steps, as the bend at the root that smoothing along the strand took away.
     pub corrections: usize,
-    /// Steps of Adam after that. Default 20.
+    /// Steps of Adam after that, when guides are found again with operators known. Default 20.
     pub steps: usize,
     /// How far a tip may turn in a step, in radians, spread over the guide's points. Default 0.005.
     pub turn: f64,
