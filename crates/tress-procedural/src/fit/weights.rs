@@ -5,8 +5,8 @@
 //! the origin, and that is a nonnegative least squares: the least of
 //! `|sum_k y_k d_k|^2 + c^2 (sum_k y_k - 1)^2` over `y >= 0` is at a multiple of `w`, since along
 //! `y = t w` it is `c^2 q / (q + c^2)` with `q = |sum w_k d_k|^2`, which grows with `q`. It is
-//! solved exactly, by the active sets of Lawson and Hanson ("Solving least squares problems", 1974), where
-//! \[IPG\] takes 2,000 steps of Adam.
+//! solved exactly, by the active sets of Lawson and Hanson ("Solving least squares problems",
+//! 1974), where \[IPG\] takes 2,000 steps of Adam.
 
 use glam::DVec3;
 use nalgebra::{DMatrix, DVector};
