@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
+use tress::edit::Grouping;
 use tress::fit::{FitOptions, FitReport, Sampling};
 use tress::geometry::{Groom, HelixGroom};
 use tress::io::Model;
 
 use crate::args::Everywhere;
 use crate::failure::Failure;
-use crate::options::SamplingArgs;
+use crate::options::{FitArgs, SamplingArgs};
 use crate::progress::Progress;
 use crate::report::count;
 
@@ -54,6 +55,26 @@ impl Curved {
             counts: Some(groom.strands().counts().collect()),
             fit: Some(fitted.report),
         })
+    }
+
+    /// The group of each strand. In a sequence clusters are those of its first frame, so that no
+    /// strand goes over to another.
+    pub(crate) fn groups(
+        &self,
+        grouping: &Grouping,
+        input: &Path,
+        fit: &FitArgs,
+        everywhere: &Everywhere,
+        progress: &Progress,
+    ) -> Result<Vec<u32>, Failure> {
+        let first = match (grouping, everywhere.frame.first(input)) {
+            (Grouping::Clusters(_), Some(first)) => {
+                Some(Self::new(read(first, progress)?, &fit.options(), progress)?)
+            }
+            _ => None,
+        };
+        let helices = first.as_ref().map_or(&self.helices, |first| &first.helices);
+        Ok(tress::edit::groups(helices, grouping, everywhere.seed)?)
     }
 
     /// The share of the strands that was asked for.

@@ -9,7 +9,7 @@ use tress::io::{Format, UsdCurves, WriteOptions};
 
 use crate::args::Everywhere;
 use crate::failure::Failure;
-use crate::options::{FormatArgs, SamplingArgs, TargetArg, UsdCurvesArg};
+use crate::options::{FormatArgs, RoadArgs, SamplingArgs, TargetArg, UsdCurvesArg};
 use crate::progress::Progress;
 use crate::report::{Report, count};
 use crate::source::Curved;
@@ -65,6 +65,19 @@ pub(crate) fn write_curved(
     }
     progress.stage("sampling");
     write(output, &curved.sample(sampling)?, format, progress, report)
+}
+
+/// Writes the share of an edited groom that was asked for.
+pub(crate) fn write_edited(
+    output: &Path,
+    edited: Curved,
+    road: &RoadArgs,
+    everywhere: &Everywhere,
+    progress: &Progress,
+    report: &mut Report,
+) -> Result<(), Failure> {
+    let share = edited.share(everywhere);
+    write_curved(output, &share, &road.sampling, &road.format, progress, report)
 }
 
 /// Writes polylines, and reports what the format has no place for.

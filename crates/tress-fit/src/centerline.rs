@@ -14,6 +14,7 @@ mod period;
 
 use glam::DVec3;
 use tress_geometry::Frame;
+use tress_geometry::curves::{hermite, hermite_derivative};
 use tress_geometry::polyline::{self, Defect, place};
 
 pub use frames::{rotation_minimizing_frames, rotation_minimizing_frames_from};
@@ -149,15 +150,13 @@ impl Centerline {
     pub fn at(&self, s: f64) -> Frame {
         let (i, u) = place(&self.arc_lengths, s);
         let here = self.frames[i];
-        let Some(next) = self.frames.get(i + 1) else { return here };
+        let Some(&next) = self.frames.get(i + 1) else { return here };
         let span = self.arc_lengths[i + 1] - self.arc_lengths[i];
-        let v = 1.0 - u;
-        let (p, q) = (here.position, next.position);
-        let (m, n) = (here.tangent() * span, next.tangent() * span);
-        let position = p + (q - p) * (u * u * (3.0 - 2.0 * u)) + m * (u * v * v) - n * (u * u * v);
-        let slope = (q - p) * (6.0 * u * v) + m * (v * (1.0 - 3.0 * u)) - n * (u * (2.0 - 3.0 * u));
-        let turned = here.turned_to(slope.try_normalize().unwrap_or(here.tangent()));
-        Frame { position, axes: turned.axes }
+        let ends = [here.position, next.position];
+        let slopes = [here, next].map(|frame| frame.tangent() * span);
+        let along = hermite_derivative(ends, slopes, u).try_normalize();
+        let turned = here.turned_to(along.unwrap_or(here.tangent()));
+        Frame { position: hermite(ends, slopes, u), axes: turned.axes }
     }
 
     /// Where the strand's points stand in the frames: along the tangent, along `u`, along `v`.

@@ -4,7 +4,7 @@
 //! from Gauss-Legendre quadrature of the speed and is inverted by Newton's method.
 
 use glam::DVec3;
-use tress_geometry::curves::catmull_rom_derivative;
+use tress_geometry::curves::{catmull_rom_derivative, hermite};
 use tress_geometry::polyline::place;
 
 use crate::TangentRule;
@@ -142,8 +142,7 @@ impl Spline {
     fn position(&self, i: usize, u: f64) -> DVec3 {
         let (p, q) = (self.points[i], self.points[i + 1]);
         let (m, n) = (self.slopes[i] * self.spans[i], self.slopes[i + 1] * self.spans[i]);
-        let v = 1.0 - u;
-        p + (q - p) * (u * u * (3.0 - 2.0 * u)) + m * (u * v * v) - n * (u * u * v)
+        hermite([p, q], [m, n], u)
     }
 }
 

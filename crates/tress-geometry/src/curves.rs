@@ -1,8 +1,11 @@
-//! Cubic curves through and near points: Catmull-Rom for fitting, and the bases that files use.
+//! Cubic curves through and near points: Catmull-Rom for fitting, the bases that files use, and
+//! Hermite's by its ends and slopes.
 //!
 //! A cubic segment is `p(t) = sum_k w_k(t) P_k` over four control points, `t` in 0 to 1, with the
 //! weights of its basis. Only Catmull-Rom passes through its points; a B-spline's points are *not*
 //! on the curve, and reading them as a polyline makes a coil too wide.
+
+use std::ops::{Add, Mul, Sub};
 
 use glam::DVec3;
 
@@ -64,6 +67,40 @@ impl CubicBasis {
             Self::BSpline | Self::CatmullRom => 1,
         }
     }
+}
+
+/// The cubic that leaves `ends[0]` with the derivative `slopes[0]` and arrives at `ends[1]` with
+/// `slopes[1]`, at `u` from 0 to 1. Numbers and vectors alike.
+///
+/// ```
+/// use tress_geometry::curves::hermite;
+///
+/// // The cubic is u^3.
+/// assert_eq!(hermite([0.0, 1.0], [0.0, 3.0], 0.5), 0.125);
+/// ```
+#[must_use]
+pub fn hermite<V>(ends: [V; 2], slopes: [V; 2], u: f64) -> V
+where
+    V: Copy + Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V>,
+{
+    let ([p, q], [m, n], v) = (ends, slopes, 1.0 - u);
+    p + (q - p) * (u * u * (3.0 - 2.0 * u)) + m * (u * v * v) - n * (u * u * v)
+}
+
+/// The derivative of [`hermite`] by `u`.
+///
+/// ```
+/// use tress_geometry::curves::hermite_derivative;
+///
+/// assert_eq!(hermite_derivative([0.0, 1.0], [0.0, 3.0], 0.5), 0.75);
+/// ```
+#[must_use]
+pub fn hermite_derivative<V>(ends: [V; 2], slopes: [V; 2], u: f64) -> V
+where
+    V: Copy + Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V>,
+{
+    let ([p, q], [m, n], v) = (ends, slopes, 1.0 - u);
+    (q - p) * (6.0 * u * v) + m * (v * (1.0 - 3.0 * u)) - n * (u * (2.0 - 3.0 * u))
 }
 
 /// The point before the first (or behind the last) that makes a cubic curve begin at `end`: the

@@ -59,4 +59,5 @@ pub use frame::Frame;
 pub use groom::{Groom, GroomError, JoinError, UpAxis};
 pub use helix_groom::{HelixGroom, Kept};
 pub use mesh::{Mesh, MeshError};
+pub use rodrigues::factorial_series;
 pub use strands::{OffsetsError, Strands};

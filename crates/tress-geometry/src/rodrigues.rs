@@ -27,8 +27,18 @@ const SERIES_BELOW: f64 = 1.0;
 /// Terms of each series: at `x = 1` the first one left out is below `1e-19` of the first.
 const TERMS: usize = 9;
 
-/// `sum_k (-1)^k x^2k / (2k + m)!`, for `m` = 1, 2, 3: `sin x / x` and its kin.
-const fn factorial_series(m: u32) -> [f64; TERMS] {
+/// The first coefficients `(-1)^k / (2k + m)!` of a series in `x^2`.
+///
+/// For `m` = 1, 2, 3 it is `sin x / x`, `(1 - cos x) / x^2` and `(x - sin x) / x^3`: the functions
+/// of an element's turning angle that its rotation and displacement are made of.
+///
+/// ```
+/// const SINC: [f64; 10] = tress_geometry::factorial_series(1);
+/// let at = |x: f64| SINC.iter().rev().fold(0.0, |sum, term| sum * x * x + term);
+/// assert!((at(0.7) - 0.7_f64.sin() / 0.7).abs() < 1e-16);
+/// ```
+#[must_use]
+pub const fn factorial_series<const TERMS: usize>(m: u32) -> [f64; TERMS] {
     let mut terms = [0.0; TERMS];
     let mut factorial = 1.0;
     let mut n = 1;

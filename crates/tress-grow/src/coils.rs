@@ -3,6 +3,7 @@
 use glam::DVec2;
 use tress_fit::{ReadSpectraError, Spectra};
 use tress_geometry::Strands;
+use tress_geometry::curves::hermite;
 
 /// The spectra that ship with the crate, made by its example `default_spectra`.
 const DEFAULT: &[u8] = include_bytes!("../presets/default.tress-spectra");
@@ -110,9 +111,7 @@ impl Coil<'_> {
         let [a, b, c, d] =
             [if i > 0 { i - 1 } else { n - 1 }, i, j, next(j)].map(|i| self.offsets[i]);
         let (m, k) = (0.5 * (c - a), 0.5 * (d - b));
-        let v = 1.0 - u;
-        let value = b + (c - b) * (u * u * (3.0 - 2.0 * u)) + m * (u * v * v) - k * (u * u * v);
-        self.scale * value
+        self.scale * hermite([b, c], [m, k], u)
     }
 }
 

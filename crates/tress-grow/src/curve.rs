@@ -5,6 +5,7 @@
 //! slopes of Fritsch and Butland (1984). Outside the points it keeps the nearest's value.
 
 use serde::{Deserialize, Serialize};
+use tress_geometry::curves::hermite;
 
 /// Points `(t, value)` of a smooth function, in RON a list of pairs.
 ///
@@ -79,9 +80,7 @@ impl Curve {
         };
         let Some(&(t1, b)) = self.knots.get(i) else { return a };
         let (span, u) = (t1 - t0, (t - t0) / (t1 - t0));
-        let v = 1.0 - u;
-        a + (b - a) * (u * u * (3.0 - 2.0 * u))
-            + span * u * v * (self.slopes[i - 1] * v - self.slopes[i] * u)
+        hermite([a, b], [span * self.slopes[i - 1], span * self.slopes[i]], u)
     }
 
     /// Its points.

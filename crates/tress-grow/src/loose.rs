@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use tress_geometry::Frame;
+use tress_geometry::curves::{hermite, hermite_derivative};
 
 use crate::coils::Coil;
 use crate::curve::smoothstep;
@@ -50,18 +51,12 @@ impl LooseLine {
     fn at(&self, s: f64) -> (DVec3, DVec3) {
         let (i, beyond) = tress_geometry::polyline::place(&self.arc_lengths, s);
         let u = ((i as f64 + beyond) / CHORDS as f64).min(1.0);
-        let tangent = self.derivative(u).try_normalize();
+        let tangent = hermite_derivative(self.ends, self.slopes, u).try_normalize();
         (self.position(u), tangent.unwrap_or_else(|| self.slopes[1].normalize_or(DVec3::X)))
     }
 
     fn position(&self, u: f64) -> DVec3 {
-        let ([p, q], [m, n], v) = (self.ends, self.slopes, 1.0 - u);
-        p + (q - p) * (u * u * (3.0 - 2.0 * u)) + m * (u * v * v) - n * (u * u * v)
-    }
-
-    fn derivative(&self, u: f64) -> DVec3 {
-        let ([p, q], [m, n], v) = (self.ends, self.slopes, 1.0 - u);
-        (q - p) * (6.0 * u * v) + m * (v * (1.0 - 3.0 * u)) - n * (u * (2.0 - 3.0 * u))
+        hermite(self.ends, self.slopes, u)
     }
 }
 

@@ -7,6 +7,7 @@
 
 use glam::DVec3;
 use rand::{Rng, RngExt};
+use tress_geometry::curves::hermite;
 
 use crate::{Skip, SkipUnit};
 
@@ -64,12 +65,10 @@ pub fn skip_periods(
         if gap < 2 {
             continue;
         }
-        let (p, q) = (scratch.points[k], scratch.points[k + 1]);
-        let (m, n) = (slope(&scratch.points, k), slope(&scratch.points, k + 1));
+        let spline = [scratch.points[k], scratch.points[k + 1]];
+        let slopes = [slope(&scratch.points, k), slope(&scratch.points, k + 1)];
         for (i, place) in hair[ends[0] + 1..ends[1]].iter_mut().enumerate() {
-            let u = (i + 1) as f64 / gap as f64;
-            let v = 1.0 - u;
-            *place = p + (q - p) * (u * u * (3.0 - 2.0 * u)) + m * (u * v * v) - n * (u * u * v);
+            *place = hermite(spline, slopes, (i + 1) as f64 / gap as f64);
         }
     }
 }

@@ -77,16 +77,7 @@ pub(crate) fn run(args: &BlendArgs, everywhere: &Everywhere) -> Result<Report, F
     let to = Curved::new(to, &options, &progress)?;
     progress.stage("blending");
     from.helices = blend(&from.helices, &to.helices, args.amount, space)?;
-    let middle = from.share(everywhere);
-    let sampling = &args.road.sampling;
-    target::write_curved(
-        &args.output,
-        &middle,
-        sampling,
-        &args.road.format,
-        &progress,
-        &mut report,
-    )?;
+    target::write_edited(&args.output, from, &args.road, everywhere, &progress, &mut report)?;
     Ok(report)
 }
 

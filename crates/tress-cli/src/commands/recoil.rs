@@ -84,15 +84,6 @@ pub(crate) fn run(args: &RecoilArgs, everywhere: &Everywhere) -> Result<Report, 
     report.say("", spread(after.turns, "") + " after");
     report.say("length", spread(before.length, "") + " before");
     report.say("", spread(after.length, "") + " after");
-    let curved = curved.share(everywhere);
-    let sampling = &args.road.sampling;
-    target::write_curved(
-        &args.output,
-        &curved,
-        sampling,
-        &args.road.format,
-        &progress,
-        &mut report,
-    )?;
+    target::write_edited(&args.output, curved, &args.road, everywhere, &progress, &mut report)?;
     Ok(report)
 }

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use clap::Args;
 use tress::analysis::Quantiles;
-use tress::edit::{Grouping, RuffleOptions, groups, ruffle};
+use tress::edit::{Grouping, RuffleOptions, ruffle};
 use tress::geometry::HelixGroom;
 
 use crate::args::Everywhere;
@@ -82,14 +82,7 @@ pub(crate) fn run(args: &RuffleArgs, everywhere: &Everywhere) -> Result<Report, 
     say_fit(&curved, &mut report);
 
     progress.stage("ruffling");
-    let groups = match (&args.groups, everywhere.frame.first(&args.input)) {
-        (Grouping::Clusters(_), Some(first)) => {
-            let first = source::read(first, &progress)?;
-            let first = Curved::new(first, &args.road.fit.options(), &progress)?;
-            groups(&first.helices, &args.groups, everywhere.seed)?
-        }
-        _ => groups(&curved.helices, &args.groups, everywhere.seed)?,
-    };
+    let groups = curved.groups(&args.groups, &args.input, &args.road.fit, everywhere, &progress)?;
     let keep = elements_kept(&curved.helices, args.keep);
     let options = RuffleOptions { probability: args.probability, keep, blend: args.blend };
     let (ruffled, done) = ruffle(&curved.helices, &groups, &options, everywhere.seed)?;
@@ -113,16 +106,7 @@ pub(crate) fn run(args: &RuffleArgs, everywhere: &Everywhere) -> Result<Report, 
     if done.unequal {
         report.say("unequal", "strands differ in elements; each draws from those as long");
     }
-    let curved = curved.share(everywhere);
-    let sampling = &args.road.sampling;
-    target::write_curved(
-        &args.output,
-        &curved,
-        sampling,
-        &args.road.format,
-        &progress,
-        &mut report,
-    )?;
+    target::write_edited(&args.output, curved, &args.road, everywhere, &progress, &mut report)?;
     Ok(report)
 }
 

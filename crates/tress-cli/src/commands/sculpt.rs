@@ -71,16 +71,7 @@ pub(crate) fn run(args: &SculptArgs, everywhere: &Everywhere) -> Result<Report, 
     progress.stage(format!("sculpting {} strands", count(curved.helices.len())));
     let sculpted = sculpt(&mut curved.helices, &controls, &options(args))?;
     say_sculpted(&sculpted, &mut report);
-    let curved = curved.share(everywhere);
-    let sampling = &args.road.sampling;
-    target::write_curved(
-        &args.output,
-        &curved,
-        sampling,
-        &args.road.format,
-        &progress,
-        &mut report,
-    )?;
+    target::write_edited(&args.output, curved, &args.road, everywhere, &progress, &mut report)?;
     Ok(report)
 }
 

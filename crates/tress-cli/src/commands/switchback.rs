@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, ValueEnum};
 use serde::Serialize;
-use tress::edit::{Grouping, groups};
+use tress::edit::Grouping;
 use tress::geometry::{Element, Frame, HelixGroom, Strands};
 use tress::switchback::{
     Coil, DoubleSwitchback, InsertOptions, InsertReport, Material, Placing, Profile, Ritz,
@@ -234,14 +234,7 @@ fn run_insert(args: &InsertArgs, everywhere: &Everywhere) -> Result<Report, Fail
     let mut curved = Curved::new(model, &args.road.fit.options(), &progress)?;
     say_fit(&curved, &mut report);
     progress.stage("putting switchbacks in");
-    let groups = match (&args.groups, everywhere.frame.first(&args.input)) {
-        (Grouping::Clusters(_), Some(first)) => {
-            let first = source::read(first, &progress)?;
-            let first = Curved::new(first, &args.road.fit.options(), &progress)?;
-            groups(&first.helices, &args.groups, everywhere.seed)?
-        }
-        _ => groups(&curved.helices, &args.groups, everywhere.seed)?,
-    };
+    let groups = curved.groups(&args.groups, &args.input, &args.road.fit, everywhere, &progress)?;
     let placing = match args.density {
         Some(density) => Placing::Density(density),
         None if args.at.is_empty() => Placing::ArcLengths(args.at_length.clone()),
@@ -255,15 +248,7 @@ fn run_insert(args: &InsertArgs, everywhere: &Everywhere) -> Result<Report, Fail
     let (changed, done) = insert(&curved.helices, &groups, &placing, &options, everywhere.seed)?;
     curved.helices = changed;
     say_inserted(&done, curved.helices.len(), &mut report);
-    let curved = curved.share(everywhere);
-    target::write_curved(
-        &args.output,
-        &curved,
-        &args.road.sampling,
-        &args.road.format,
-        &progress,
-        &mut report,
-    )?;
+    target::write_edited(&args.output, curved, &args.road, everywhere, &progress, &mut report)?;
     Ok(report)
 }
 

@@ -11,6 +11,7 @@
 //! polynomials of fdlibm.
 
 use pulp::Simd;
+use tress_geometry::factorial_series;
 
 use super::Lane;
 
@@ -36,27 +37,6 @@ const SERIES_UP_TO: f64 = 16.0;
 
 /// At `x = 4` the first term left out is below `2e-17` of the sum, in the slopes below `4e-16`.
 const TERMS: usize = 17;
-
-/// `(-1)^k / (2k + m)!`.
-const fn factorial_series(m: u32) -> [f64; TERMS] {
-    let mut terms = [0.0; TERMS];
-    let mut factorial = 1.0;
-    let mut n = 1;
-    while n <= m {
-        factorial *= n as f64;
-        n += 1;
-    }
-    let mut k = 0;
-    let mut sign = 1.0;
-    while k < TERMS {
-        terms[k] = sign / factorial;
-        let next = m as f64 + 2.0 * k as f64;
-        factorial *= (next + 1.0) * (next + 2.0);
-        sign = -sign;
-        k += 1;
-    }
-    terms
-}
 
 const B: [f64; TERMS] = factorial_series(2);
 const C: [f64; TERMS] = factorial_series(3);
