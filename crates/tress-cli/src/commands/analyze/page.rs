@@ -58,10 +58,8 @@ fn pictures_of(
     view: View,
 ) -> Result<Vec<(Vec<u8>, String)>, Failure> {
     let pictured = pictured(study, quantities);
-    let (natural, coloured) = rayon::join(
-        || pictures::natural(study, view),
-        || pictures::by(study, &pictured, view),
-    );
+    let (natural, coloured) =
+        rayon::join(|| pictures::natural(study, view), || pictures::by(study, &pictured, view));
     let captions = pictured.iter().map(|of| format!("By {}.", of.title()));
     let captions = std::iter::once("As it grows.".to_owned()).chain(captions);
     let images: Vec<_> = std::iter::once(natural?).chain(coloured?).zip(captions).collect();
