@@ -264,7 +264,7 @@ struct Errors {
     curvature: f64,
     /// Root mean square difference of the hairs' mean curvatures.
     mean_curvature: f64,
-    /// Wasserstein distance (the mean difference of equal quantiles) of the curvatures of all points.
+    /// Wasserstein distance of the curvatures of all points: the mean difference of equal quantiles.
     distribution: f64,
 }
 

@@ -91,8 +91,8 @@ impl Pull {
     }
 }
 
-/// Damping of the first step: with less, the first steps from a rough beginning lead too far and are
-/// taken back.
+/// Damping of the first step: with less, the first steps from a rough beginning lead too far and
+/// are taken back.
 const FIRST_DAMPING: f64 = 1e-2;
 
 /// Damping beyond which no step helps any more.
