@@ -264,7 +264,7 @@ struct Errors {
     curvature: f64,
     /// Root mean square difference of the hairs' mean curvatures.
     mean_curvature: f64,
-    /// Wasserstein distance of the curvatures of all points: the mean difference of equal quantiles.
+    /// Wasserstein distance of the curvatures of all points: mean difference of equal quantiles.
     distribution: f64,
 }
 
