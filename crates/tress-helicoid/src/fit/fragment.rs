@@ -64,7 +64,7 @@ const REALIGNMENTS: usize = 3;
 
 /// Another beginning is followed to its end if it comes within this factor of the best cost at
 /// once.
-const WORTH_IT: f64 = 4.0;
+const WORTH_IT: f64 = 30.0;
 
 /// A part that is farther from its strand than this many tolerances will not come within one.
 const GIVEN_UP: f64 = 2.0;
