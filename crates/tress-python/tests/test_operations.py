@@ -407,18 +407,18 @@ def test_helicoids_are_fitted_sampled_and_filled_in():
     guides = tress.Groom(
         np.stack([strand, strand * 1.2 + [3, 0, 0], strand + [0, 0, 3]]), unit="cm"
     )
-    hairs, report = tress.fit_helicoids(guides, pieces={"Equal": 2}, roll="Steady")
-    assert len(hairs) == 3 and report["pieces"] == [2, 2, 2] and hairs.unit == 0.01
+    hairs, report = tress.fit_helicoids(guides, pieces={"Equal": 3}, roll="Steady")
+    assert len(hairs) == 3 and report["pieces"] == [3, 3, 3] and hairs.unit == 0.01
     assert max(report["rms"]) < 0.02
-    assert hairs.parameters.shape == (6, 4) and hairs.lengths.shape == (6,)
-    assert hairs.root_frames.shape == (3, 3, 3) and hairs.offsets.tolist() == [0, 2, 4, 6]
+    assert hairs.parameters.shape == (9, 4) and hairs.lengths.shape == (9,)
+    assert hairs.root_frames.shape == (3, 3, 3) and hairs.offsets.tolist() == [0, 3, 6, 9]
     back = tress.sample_helicoids(hairs, counts=guides.counts)
     assert np.abs(back.positions - guides.positions).max() < 0.1
     helices = tress.to_helices(hairs, per_piece=30)
-    assert helices.counts.tolist() == [60] * 3 and helices.unit == 0.01
+    assert helices.counts.tolist() == [90] * 3 and helices.unit == 0.01
     along = tress.sample(helices, points=40), tress.sample_helicoids(hairs, points=40)
     assert np.abs(along[0].positions - along[1].positions).max() < 1e-3
-    of_helices, _ = tress.fit_helicoids(helices, pieces={"Equal": 2}, roll="Steady")
+    of_helices, _ = tress.fit_helicoids(helices, pieces={"Equal": 3}, roll="Steady")
     assert len(of_helices) == 3
     spread = tress.wisps(hairs, hairs=5, radius=0.1, points=12, seed=2)
     assert spread.counts.tolist() == [12] * 15
