@@ -103,7 +103,7 @@ fn io(path: &Path) -> impl FnOnce(std::io::Error) -> FileError {
 }
 
 /// Writes a file beside its target and renames it when it is whole.
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(".part");
     let part = path.with_file_name(name);

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use tress_geometry::Groom;
 
 use super::{Fitter, FitterError, Record, Stage, StageOptions};
+use crate::file::write_whole;
 use crate::numbers::fingerprint;
 use crate::{Chain, EvenStrands, ProceduralGroom};
 
@@ -104,6 +105,6 @@ impl Fitter {
             groom.write(&folder.join(GROOM))?;
         }
         let text = ron::to_string(&self.state).map_err(|error| refused(error.to_string()))?;
-        std::fs::write(&path, text).map_err(|error| refused(error.to_string()))
+        Ok(write_whole(&path, text.as_bytes())?)
     }
 }

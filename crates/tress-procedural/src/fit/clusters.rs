@@ -19,6 +19,7 @@ use crate::EvenStrands;
 const STRETCHES: usize = 8;
 /// A root and the mean of each stretch.
 const FEATURES: usize = 3 + 3 * STRETCHES;
+
 /// Guides to begin with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Initial {

@@ -6,9 +6,9 @@ use crate::{ParseError, Place, Problem};
 
 /// Runs `read`, and makes a panic in it an error.
 ///
-/// openusd 0.6 indexes by numbers from the file, and ends in `todo!` where data is compressed in
-/// several chunks. What can be checked before is checked before it is called; this holds what is
-/// left. Nothing that `read` touches outlives it, so that no state is seen half changed.
+/// openusd 0.6 indexes by numbers from the file, and panics where data is compressed in several
+/// chunks. What can be checked before is checked before it is called; this holds what is left.
+/// Nothing that `read` touches outlives it, so that no state is seen half changed.
 pub(super) fn no_panic<T>(read: impl FnOnce() -> Result<T, ParseError>) -> Result<T, ParseError> {
     catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|panic| {
         let message = panic
