@@ -321,6 +321,37 @@ mod tests {
     }
 
     #[test]
+    fn the_first_number_of_a_row_stands_for_it() {
+        let color = Column::Float { components: 3, values: (0..6).map(f64::from).collect() };
+        assert_eq!((color.components(), color.rows()), (3, 2));
+        assert_eq!(color.first_components().collect::<Vec<_>>(), [0.0, 3.0]);
+        let ids = Column::Int(vec![7, -9]);
+        assert_eq!((ids.components(), ids.rows()), (1, 2));
+        assert_eq!(ids.first_components().collect::<Vec<_>>(), [7.0, -9.0]);
+    }
+
+    #[test]
+    fn tables_with_the_same_columns_join_row_after_row() {
+        let table = |ids: &[i64], uv: &[f64]| {
+            let mut table = Attributes::new(ids.len());
+            table.insert("id", Column::Int(ids.to_vec())).expect("a row an id");
+            let uv = Column::Float { components: 2, values: uv.to_vec() };
+            table.insert("uv", uv).expect("two numbers an id");
+            table
+        };
+        let mut joined = table(&[1], &[0.0, 1.0]);
+        joined.append(&table(&[2, 3], &[2.0, 3.0, 4.0, 5.0])).expect("the same columns");
+        let whole = table(&[1, 2, 3], &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert_eq!(joined, whole);
+        // Of the same name, but single numbers.
+        let mut other = table(&[4], &[6.0, 7.0]);
+        other.insert("uv", Column::scalar(vec![8.0])).expect("a number a row");
+        let unlike = ColumnError::Unlike { name: "uv".into() };
+        assert_eq!(joined.append(&other), Err(unlike));
+        assert_eq!(joined, whole);
+    }
+
+    #[test]
     fn zero_components_are_refused() {
         let none = Column::Float { components: 0, values: vec![] };
         assert!(Attributes::new(0).insert("none", none).is_err());

@@ -216,6 +216,18 @@ mod tests {
     }
 
     #[test]
+    fn slopes_of_a_parabola_are_in_the_mean_those_of_its_chords() {
+        let p = [P[0], P[1], P[3]];
+        for alpha in [0.0, 0.5, 1.0] {
+            let d = [0, 1, 2].map(|i| catmull_rom_derivative(&p, i, alpha));
+            for i in 0..2 {
+                let chord = (p[i + 1] - p[i]) / p[i].distance(p[i + 1]).powf(alpha);
+                assert!(chord.distance(0.5 * (d[i] + d[i + 1])) < 1e-14, "{alpha} {i}");
+            }
+        }
+    }
+
+    #[test]
     fn repeated_points_are_passed_over() {
         let p = [DVec3::ZERO, DVec3::ZERO, DVec3::X, DVec3::X, DVec3::ONE];
         for i in 0..5 {

@@ -117,6 +117,7 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Element;
 
     #[test]
     fn every_direction_gets_an_orthonormal_frame() {
@@ -139,5 +140,49 @@ mod tests {
             assert!(turned.tangent().distance(t) < 1e-9 && turned.orthonormality_error() < 1e-12);
             assert!(turned.is_valid());
         }
+    }
+
+    #[test]
+    fn turning_is_the_least_rotation() {
+        let frame = Frame::along(DVec3::ZERO, DVec3::new(1.0, 2.0, -0.5)).expect("a direction");
+        for t in [DVec3::X, DVec3::new(0.6, 0.0, -0.8), DVec3::NEG_Y] {
+            // It turns about what stands across both tangents, which keeps its place.
+            let axis = frame.tangent().cross(t).normalize();
+            let turned = frame.turned_to(t);
+            let places = [frame, turned].map(|frame| frame.axes.transpose() * axis);
+            assert!(places[0].distance(places[1]) < 1e-15, "{places:?}");
+        }
+    }
+
+    /// How far a frame that is carried along a helix of twist 0.7 is turned about the tangent from
+    /// where the material frame says that it does not turn.
+    fn turn_along_a_helix(steps: u32) -> f64 {
+        let (twist, length) = (0.7, 4.0);
+        let helix = Element { curvature: DVec3::new(twist, 0.0, 1.5), length };
+        let at =
+            |i: u32| helix.frame_at(&Frame::IDENTITY, length * f64::from(i) / f64::from(steps));
+        let carried = (1..=steps)
+            .map(at)
+            .fold(Frame::IDENTITY, |frame, next| frame.reflected_to(next.position, next.tangent()));
+        let (sine, cosine) = (twist * length).sin_cos();
+        let axes = at(steps).axes;
+        carried.axes.y_axis.distance(axes.y_axis * cosine - axes.z_axis * sine)
+    }
+
+    #[test]
+    fn carried_frames_do_not_turn_about_a_helix_but_for_fourth_order() {
+        let (coarse, fine) = (turn_along_a_helix(20), turn_along_a_helix(40));
+        assert!(fine < 1e-4 && (coarse / fine - 16.0).abs() < 1.0, "{coarse:e} {fine:e}");
+    }
+
+    #[test]
+    fn what_is_not_a_frame_is_not_valid() {
+        let valid = Frame::IDENTITY;
+        assert!(valid.is_valid());
+        let left_handed = DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0));
+        for axes in [DMat3::ZERO, left_handed, 2.0 * DMat3::IDENTITY, DMat3::NAN] {
+            assert!(!Frame { axes, ..valid }.is_valid(), "{axes}");
+        }
+        assert!(!Frame { position: DVec3::INFINITY, ..valid }.is_valid());
     }
 }

@@ -308,6 +308,14 @@ mod tests {
     }
 
     #[test]
+    fn strands_have_the_elements_that_were_given() {
+        let groom = parts(vec![1]).expect("strand 1 is there");
+        assert_eq!(groom.elements().counts().collect::<Vec<_>>(), [1, 0, 2]);
+        let counts: Vec<usize> = groom.iter().map(|strand| strand.elements.len()).collect();
+        assert_eq!(counts, [1, 0, 2]);
+    }
+
+    #[test]
     fn selecting_takes_kept_strands_along() {
         let groom = parts(vec![1]).expect("strand 1 is there");
         let picked = groom.select(&[1, 2]);

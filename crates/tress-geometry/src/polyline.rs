@@ -125,5 +125,7 @@ mod tests {
         arc_lengths(&points, &mut s);
         assert_eq!(s, [0.0, 1.0, 1.0, 3.0]);
         assert_eq!((length(&points), repeated_points(&points)), (3.0, 1));
+        assert_eq!((length(&points), repeated_points(&points)), (3.0, 1));
+        assert_eq!([&points[..2], &[DVec3::X; 4]].map(repeated_points), [0, 3]);
     }
 }

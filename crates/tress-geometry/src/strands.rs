@@ -295,6 +295,13 @@ mod tests {
     }
 
     #[test]
+    fn parts_make_the_same_strands_again() {
+        let strands = Strands::from_counts([2, 0, 3], vec![0, 1, 2, 3, 4]).expect("5 points");
+        let (offsets, points) = strands.clone().into_parts();
+        assert_eq!(Strands::new(offsets, points), Ok(strands));
+    }
+
+    #[test]
     fn serialized_strands_are_checked_when_read() {
         let strands = Strands::from_counts([1, 2], vec![7, 8, 9]).expect("counts sum to 3");
         let text = ron::to_string(&strands).expect("plain data");

@@ -45,6 +45,22 @@ proptest! {
 }
 
 #[test]
+fn the_first_turn_alone_says_where_the_frame_stands_about_the_tangent() {
+    // A little more than a turn about v, or a little less, and then much more about u.
+    let of = |length| {
+        let first = Element { curvature: DVec3::Z, length };
+        [first, Element { curvature: 5.0 * DVec3::Y, length: 9.0 }]
+    };
+    let (mut root, mut elements) = (Frame::IDENTITY, of(6.3));
+    align_frame(&mut root, &mut elements);
+    assert!(elements[1].curvature.distance(5.0 * DVec3::Y) < 1e-14);
+    let mut elements = of(6.2);
+    align_frame(&mut root, &mut elements);
+    let bend: DVec3 = elements.iter().map(|element| element.curvature * element.length).sum();
+    assert!(bend.distance(f64::hypot(6.2, 45.0) * DVec3::Z) < 1e-13, "{bend}");
+}
+
+#[test]
 fn queries_outside_are_held_within_the_strand() {
     let elements = [Element { curvature: DVec3::Z, length: 1.0 }];
     let strand = SuperHelix { root: Frame::IDENTITY, elements: &elements };
