@@ -18,6 +18,7 @@
 //!
 //! This crate never reads a file; randomness comes from a seed that the caller gives.
 
+mod agreement;
 mod along;
 mod analysis;
 mod cluster;
@@ -34,6 +35,7 @@ mod switchback;
 mod winding;
 mod wisps;
 
+pub use agreement::adjusted_rand;
 pub use along::{Along, FLATTEST};
 pub use analysis::Analysis;
 pub use cluster::{ClusterError, Clusters, k_means, root_tip_features};

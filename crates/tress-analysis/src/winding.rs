@@ -107,8 +107,9 @@ pub(crate) const FLAT: f64 = 0.5;
 const LEAST_RADIUS: f64 = 0.15;
 
 impl Winding {
-    /// How a super-helix winds; `None` for one that bends too little or goes round less than
-    /// 1.2 times, which is no more than a bow.
+    /// How a super-helix winds; `None` for one that is no more than a bow: that bends too little,
+    /// goes round less than 1.2 times (2 times if it is flat), or leans too little from its
+    /// centerline.
     #[must_use]
     pub fn of(strand: &SuperHelix<'_>) -> Option<Self> {
         Self::with(&Stations::of(strand)?, &mut Spectra::default())

@@ -56,7 +56,8 @@ const LEAST_COMPANY: f64 = 0.1;
 const TOGETHER: f64 = 0.3;
 
 impl Wisps {
-    /// The wisps of a groom, of which `analysis` knows the coil radii.
+    /// The wisps of a groom. `analysis` is that of the same groom, [`Analysis::of`]: it knows the
+    /// strands' coil radii, and their centerlines point by point.
     ///
     /// ```
     /// use glam::DVec3;

@@ -49,8 +49,8 @@ const SAME: f64 = 1.25;
 
 impl Spectra {
     /// Stations in one turn, by the strongest band; a second guess where what is left of the strand
-    /// without a cubic turns otherwise than without a line. None where nothing is left of it but
-    /// its gross shape.
+    /// without a cubic turns faster than without a line. None where nothing is left of it but its
+    /// gross shape.
     pub(super) fn dominant_periods(&mut self, points: &[DVec3], bending: f64) -> [Option<f64>; 2] {
         let by_cubic = self.dominant_period(points, 3);
         if MUCH_BENDING <= bending {

@@ -103,3 +103,40 @@ fn count(bending: f64) -> Option<usize> {
     let wanted = wanted as usize;
     Some(wanted.next_multiple_of(MULTIPLE))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_strand_whose_arcs_loop_is_taken_along_a_spline() {
+        // Points a hundredth of the others' distance apart at a corner, one of them twice.
+        let points = [
+            DVec3::ZERO,
+            DVec3::X,
+            DVec3::new(2.0, 0.0, 0.0),
+            DVec3::new(2.01, 0.0, 0.0),
+            DVec3::new(2.01, 0.0, 0.0),
+            DVec3::new(2.01, 0.01, 0.0),
+            DVec3::new(2.0, 1.0, 0.5),
+            DVec3::new(0.0, 1.0, 0.5),
+        ];
+        let options = FitOptions { refine: None, measure: false, ..FitOptions::default() };
+        let arcs = fit_strand(&points, &options).expect("a curve");
+        let looped = Stations::of(&arcs.super_helix()).expect("a length").bending;
+        assert!(2.0 * bending(&points) < looped, "{looped} of {}", bending(&points));
+
+        let (stations, arc_lengths) = Stations::through(&points).expect("a curve");
+        assert!(stations.bending < 1.2 * bending(&points), "{}", stations.bending);
+        assert!(arc_lengths.is_sorted() && arc_lengths.len() == points.len());
+        for (point, s) in points.iter().zip(arc_lengths) {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a station"
+            )]
+            let nearest = stations.positions[(s / stations.spacing).round() as usize];
+            assert!(nearest.distance(*point) < stations.spacing, "{point} is not at {s}");
+        }
+    }
+}
