@@ -212,6 +212,25 @@ mod tests {
     }
 
     #[test]
+    fn a_circle_ends_where_its_chord_does() {
+        let root = Frame::IDENTITY;
+        let chord =
+            |angle: f64| 1.5 * DVec3::new(angle.cos(), 0.6 * angle.sin(), 0.8 * angle.sin());
+        for angle in [0.0, 1e-9, 0.3, 1.6, 2.8_f64] {
+            let arc = circle(chord(angle), root.tangent()).expect("a chord");
+            let tip = Element { curvature: arc.darboux, length: arc.length }.advance(&root);
+            assert!(tip.position.distance(chord(angle)) < 1e-14, "{angle}: {}", tip.position);
+            assert!((arc.turning() - 2.0 * angle).abs() < 1e-14, "{angle}");
+        }
+        for angle in [2.9, PI] {
+            let arc = circle(chord(angle), root.tangent()).expect("a chord");
+            assert!((arc.length - 1.5).abs() < 1e-15);
+            assert!((arc.turning() - PI).abs() < 1e-14, "half a turn in the place of {angle}");
+        }
+        assert_eq!(circle(DVec3::ZERO, root.tangent()), None);
+    }
+
+    #[test]
     fn joints_are_at_all_points_and_as_many_as_asked_for() {
         let spline = coil();
         for n in [19, 20, 37, 38, 500] {

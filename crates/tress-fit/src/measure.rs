@@ -244,3 +244,56 @@ impl<'a> Projector<'a> {
         best
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strands_together_deviate_as_all_their_points_do() {
+        let straight = [Element { curvature: DVec3::ZERO, length: 2.0 }];
+        let coil = [Element { length: 5.0, ..Element::coil(0.5, 0.3) }];
+        let strand = |elements| SuperHelix { root: Frame::IDENTITY, elements };
+        let sums = |elements, n: u32, off: f64| {
+            let strand = strand(elements);
+            let along: Vec<f64> =
+                (0..=n).map(|i| strand.length() * f64::from(i) / f64::from(n)).collect();
+            let beside = |frame: Frame| frame.position + off * frame.axes.z_axis;
+            let points: Vec<_> = strand.frames_at(along.iter().copied()).map(beside).collect();
+            Sums::of(&strand, &points, &along)
+        };
+        let parts = [sums(&straight, 4, 0.1), sums(&coil, 20, 0.02), sums(&coil, 9, 0.01)];
+        let mut all = Sums::default();
+        parts.into_iter().for_each(|part| all.add(part));
+        let (parts, all) = (parts.map(|part| part.deviation()), all.deviation());
+        let pooled = |value: fn(&Deviation) -> f64, weights: [f64; 3]| {
+            let squares = parts.iter().zip(weights).map(|(part, n)| n * value(part).powi(2));
+            (squares.sum::<f64>() / weights.iter().sum::<f64>()).sqrt()
+        };
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
+        assert_eq!(all.points, 5 + 21 + 10);
+        assert!(near(all.rms, pooled(|part| part.rms, [5.0, 21.0, 10.0])));
+        assert!(near(all.rms_back, pooled(|part| part.rms_back, [4.0, 20.0, 9.0])));
+        assert!(near(all.rms_of_radius, pooled(|part| part.rms_of_radius, [0.0, 21.0, 10.0])));
+        // The worst of all, wherever it is.
+        let worst = |value: fn(&Deviation) -> f64| parts.iter().map(value).fold(0.0, f64::max);
+        assert!(near(all.greatest, worst(|part| part.greatest)));
+        assert!(near(all.greatest_back, worst(|part| part.greatest_back)));
+        assert!(near(all.greatest_of_radius, worst(|part| part.greatest_of_radius)));
+        assert!(near(all.arc_excess, worst(|part| part.arc_excess)));
+        assert!(near(all.greatest, 0.1) && near(all.greatest_of_radius, 0.04));
+    }
+
+    #[test]
+    fn the_coil_radius_is_the_mean_over_what_turns() {
+        let wound = |radius: f64, turns: f64| {
+            let coil = Element::coil(radius, 0.4);
+            Element { length: turns * std::f64::consts::TAU / coil.curvature.length(), ..coil }
+        };
+        let straight = Element { curvature: 2.0 * DVec3::X, length: 50.0 };
+        let radius = coil_radius(&[wound(1.0, 3.0), straight, wound(5.0, 1.0)]);
+        assert!((radius - 2.0).abs() < 1e-14, "{radius}");
+        assert!((coil_radius(&[wound(0.3, 0.2)]) - 0.3).abs() < 1e-15);
+        assert_eq!((coil_radius(&[straight]), coil_radius(&[])), (0.0, 0.0));
+    }
+}

@@ -153,3 +153,23 @@ fn within(
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TangentRule;
+
+    #[test]
+    fn a_point_more_than_half_an_element_off_is_astray() {
+        // Five elements of length 4 along ten segments.
+        let mut points: Vec<_> = (0..=10).map(|i| 2.0 * f64::from(i) * DVec3::X).collect();
+        let spline = Spline::through(&points, TangentRule::Helix);
+        let draft = Draft::on(&spline, &evenly(spline.length(), 5));
+        points[4].y = 1.9;
+        assert!(!is_astray(0.0, &draft, &points));
+        points[4].y = 2.1;
+        assert!(is_astray(0.0, &draft, &points));
+        points[4].y = 0.0;
+        assert!(is_astray(f64::NAN, &draft, &points));
+    }
+}

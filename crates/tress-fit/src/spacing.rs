@@ -66,3 +66,47 @@ impl Spacing {
         (0..=n).map(at).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use tress_geometry::{Element, Frame, SuperHelix};
+
+    use super::*;
+
+    /// A plane curve whose curvature is `k(s)` in the middle of elements of unlike lengths.
+    fn plane(lengths: &[f64], k: impl Fn(f64) -> f64) -> Draft {
+        let mut s = 0.0;
+        let elements = lengths.iter().map(|&length| {
+            s += length;
+            Element { curvature: k(s - 0.5 * length) * DVec3::Z, length }
+        });
+        let elements: Vec<Element> = elements.collect();
+        let joints = SuperHelix { root: Frame::IDENTITY, elements: &elements }.joints().collect();
+        Draft { joints, elements, ..Draft::default() }
+    }
+
+    #[test]
+    fn where_curvature_changes_at_one_rate_elements_are_even() {
+        let lengths: Vec<f64> = (0..40).map(|i| [0.05, 0.2, 0.1][i % 3]).collect();
+        let draft = plane(&lengths, |s| 1.0 + 0.7 * s);
+        let length: f64 = lengths.iter().sum();
+        let joints = Spacing::of(&draft).joints(7);
+        assert_eq!(joints.len(), 8);
+        for (i, joint) in joints.iter().enumerate() {
+            assert!((joint - length * i as f64 / 7.0).abs() < 1e-12, "{joints:?}");
+        }
+    }
+
+    #[test]
+    fn where_curvature_changes_eight_times_as_fast_elements_are_half_as_long() {
+        let lengths: Vec<f64> = (0..4000).map(|i| [0.0004, 0.0006][i % 2]).collect();
+        let draft = plane(&lengths, |s| if s < 1.0 { s } else { 1.0 + 8.0 * (s - 1.0) });
+        let joints = Spacing::of(&draft).joints(12);
+        // Four in the first half and eight in the second, but for what reaches over the middle.
+        for (i, joint) in joints.iter().enumerate() {
+            let expected = if i < 4 { 0.25 * i as f64 } else { 0.5 + 0.125 * i as f64 };
+            assert!((joint - expected).abs() < 2e-3, "{joints:?}");
+        }
+    }
+}

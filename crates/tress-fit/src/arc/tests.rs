@@ -69,4 +69,6 @@ fn where_no_arc_is_none_is_given() {
     assert_eq!(HelixArc::joining(DVec3::NEG_X, DVec3::X, DVec3::X), None);
     assert_eq!(HelixArc::joining(DVec3::ZERO, DVec3::X, DVec3::Y), None);
     assert_eq!(HelixArc::joining(DVec3::NAN, DVec3::X, DVec3::Y), None);
+    // So short a quarter circle that its curvature is no number.
+    assert_eq!(HelixArc::joining(DVec3::new(1e-310, 1e-310, 0.0), DVec3::X, DVec3::Y), None);
 }

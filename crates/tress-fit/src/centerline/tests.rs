@@ -163,6 +163,15 @@ fn frames_do_not_jump_where_the_tangent_meets_an_axis() {
 }
 
 #[test]
+fn tangents_of_a_parabola_are_exact_to_its_ends() {
+    let parabola: Vec<_> = (0..6).map(f64::from).map(|x| DVec3::new(x, 0.3 * x * x, 0.0)).collect();
+    for (frame, p) in rotation_minimizing_frames(&parabola).iter().zip(&parabola) {
+        let tangent = DVec3::new(1.0, 0.6 * p.x, 0.0).normalize();
+        assert!(frame.tangent().distance(tangent) < 1e-14, "{p}");
+    }
+}
+
+#[test]
 fn what_is_no_strand_is_refused() {
     for of in [centerline, fourier_centerline] {
         assert_eq!(of(&[]), Err(Defect::Empty));

@@ -126,6 +126,17 @@ fn held_joints_go_through_the_points_and_leave_no_gaps() {
 }
 
 #[test]
+fn near_is_a_tenth_of_the_coil_radius_in_the_mean() {
+    let coil = Element { length: 9.0, ..Element::coil(0.5, 0.3) };
+    let mut draft = Draft { elements: vec![coil; 3], ..Draft::default() };
+    let cost = |rms: f64| 40.0 * rms * rms;
+    assert!(is_near(cost(0.049), 40, &draft) && !is_near(cost(0.051), 40, &draft));
+    // A strand that does not coil has no radius to be far from.
+    draft.elements.iter_mut().for_each(|element| element.curvature = DVec3::ZERO);
+    assert!(is_near(cost(1e3), 40, &draft));
+}
+
+#[test]
 fn what_is_held_stays() {
     let points = coil(40);
     let spline = Spline::through(&points, TangentRule::Helix);

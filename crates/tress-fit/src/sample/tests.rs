@@ -68,6 +68,16 @@ fn a_column_only_one_side_has_is_left_out() {
 }
 
 #[test]
+fn a_column_of_joints_is_interpolated_where_nothing_is_kept() {
+    let elements =
+        Strands::from_counts([2], vec![Element { length: 2.0, ..Element::default() }; 2]);
+    let mut helices = HelixGroom::new(vec![Frame::IDENTITY], elements.unwrap()).unwrap();
+    helices.insert_joint_attribute("w", Column::scalar(vec![1.0, 2.0, 6.0])).unwrap();
+    let groom = sample(&helices, &Sampling::Points(5)).expect("points");
+    assert_eq!(column(&groom, "w"), [1.0, 1.5, 2.0, 4.0, 6.0]);
+}
+
+#[test]
 fn bad_numbers_are_refused() {
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         for how in [Sampling::Spacing(value), Sampling::PerTurn(value)] {
