@@ -18,6 +18,7 @@ mod parameters;
 mod parting;
 mod ranges;
 mod refine_numbers;
+mod sample;
 mod search;
 mod settle;
 mod slices;

@@ -107,7 +107,7 @@ pub fn initialize(
         },
     );
     let mut guides = means.clone();
-    guides.points_mut().par_chunks_mut(m).for_each(|guide| smoothing.apply(guide));
+    smoothing.apply_to_all(&mut guides);
     Ok(Initial { means, guides, root_strands, members })
 }
 

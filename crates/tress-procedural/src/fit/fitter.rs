@@ -6,10 +6,10 @@ use tress_geometry::{Column, Groom, Mesh, UpAxis, names};
 use super::checkpoint::State;
 use super::courses::courses;
 use super::guides::even_out;
-use super::weights::vertex_loss;
+use super::weights::{fit_sigma, vertex_loss};
 use super::{
-    Flaws, InitialError, Progress, Record, Stage, StageError, StageOptions, avoid_head, find_flaws,
-    fit_parameters, fit_weights, initialize, medoids, refine_guides, refine_numbers,
+    Flaws, InitialError, Progress, Record, Smoothing, Stage, StageError, StageOptions, avoid_head,
+    find_flaws, fit_parameters, fit_weights, initialize, medoids, refine_guides, refine_numbers,
 };
 use crate::groom::spacing;
 use crate::{
@@ -183,12 +183,14 @@ impl Fitter {
         let roots = Roots { positions: self.targets.roots(), uv: self.uv.clone() };
         let guide_strands: Vec<usize> = initial.root_strands.iter().map(|&i| sound[i]).collect();
         let guide_roots = roots.select(&guide_strands);
-        let sigma = spacing(&guide_roots.places(&roots));
         let neighbors = options.neighbors;
-        let mut instances = Instances::by_distance(&guide_roots, &roots, neighbors, sigma);
-        if options.own_weights {
-            instances = fit_weights(&initial.means, courses, &instances);
-        }
+        let spacing = spacing(&guide_roots.places(&roots));
+        let by_distance = |sigma| Instances::by_distance(&guide_roots, &roots, neighbors, sigma);
+        let (sigma, instances) = if options.own_weights {
+            (spacing, fit_weights(&initial.means, courses, &by_distance(spacing)))
+        } else {
+            fit_sigma(&initial.means, courses, spacing, by_distance)
+        };
         let strands = instances.instance(&initial.means, &roots.positions);
         let loss = vertex_loss(&strands, courses);
         let mut groom = ProceduralGroom::new(initial.guides, roots)?;
@@ -231,6 +233,7 @@ impl Fitter {
                     // length of the mean what they do not take from strands.
                     if bends(&operators) {
                         options.stretch = 0.0;
+                        options.evenness = options.evenness.max(1.0);
                     }
                     let roots = groom.guide_roots();
                     even_out(&mut groom.guides, &roots, &options);
@@ -241,6 +244,11 @@ impl Fitter {
                 let mut note = note(&mut self.state.history, stage, steps, watch);
                 let mut watch = |loss| note(loss, &operators);
                 refine_guides(groom, courses, sound, &moving, &options, &mut watch)?;
+                if self.courses.is_some() {
+                    let smoothing = self.options.smoothing;
+                    let steps = smoothing.steps / CURL_SHARE;
+                    Smoothing { steps, ..smoothing }.apply_to_all(&mut groom.guides);
+                }
             }
             Stage::Parameters => {
                 let steps = options.parameters.most_steps(&operators);
@@ -271,6 +279,10 @@ fn even(target: &Groom, points: usize) -> Result<(EvenStrands, Vec<usize>), Even
     let all = kept.iter().flat_map(|&i| strands.strand(i)).copied().collect();
     Ok((EvenStrands::new(points, all)?, kept))
 }
+
+/// Of the steps that smooth a cluster's mean, the share that guides of curls are smoothed by in the
+/// end: what centerlines keep of a curl is short, and comes back with corrections.
+const CURL_SHARE: usize = 4;
 
 fn bends(operators: &[Operator]) -> bool {
     operators.iter().any(|operator| matches!(operator, Operator::Bend(_)))

@@ -42,6 +42,9 @@ pub struct GuideOptions {
     pub stretch: f64,
     /// `lambda`: how far gradients are smoothed over neighbouring guides. Default 10.
     pub smoothing: f64,
+    /// How far guides are evened out over the next neighbours before anything else. Default 0.1; 1
+    /// at least under bends, which leave more in a mean of a few dozen strands.
+    pub evenness: f64,
     /// `sigma_d`: root directions that differ by more do not smooth each other. Default 0.3.
     pub directions: f64,
 }
@@ -54,6 +57,7 @@ impl Default for GuideOptions {
             turn: 0.005,
             stretch: 0.0005,
             smoothing: 10.0,
+            evenness: 0.1,
             directions: 0.3,
         }
     }
@@ -115,7 +119,7 @@ pub fn refine_guides(
 /// carries what these happened to draw, where neighbours are to be alike.
 pub(super) fn even_out(guides: &mut EvenStrands, roots: &Roots, options: &GuideOptions) {
     let m = guides.points_each();
-    let near = GuideOptions { smoothing: options.smoothing.min(1.0), ..*options };
+    let near = GuideOptions { smoothing: options.evenness, ..*options };
     let filter = Filter::new(guides, roots, &near);
     let each: Vec<DVec3> = guides.iter().flat_map(segments).collect();
     let mut directions: Vec<DVec3> = each.iter().map(|e| e.normalize_or_zero()).collect();

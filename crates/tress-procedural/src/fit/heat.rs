@@ -5,7 +5,10 @@
 //! coefficients, factored once.
 
 use glam::DVec3;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+
+use crate::EvenStrands;
 
 /// How strongly strands are smoothed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,6 +30,12 @@ impl Default for Smoothing {
 }
 
 impl Smoothing {
+    /// Smooths all strands in place.
+    pub(super) fn apply_to_all(&self, strands: &mut EvenStrands) {
+        let m = strands.points_each();
+        strands.points_mut().par_chunks_mut(m).for_each(|strand| self.apply(strand));
+    }
+
     /// Smooths a strand in place.
     ///
     /// ```

@@ -10,25 +10,25 @@
 //!    [slices](super::slices), derivatives by differences;
 //!
 //! and that is done twice: what was looked for while the others were far off is looked for again.
-//! Scale and clump are among the parameters: the paper's segments do not show them, segments
-//! relative to the guide do. Where it is asked for, they are at last set to where the
+//! Before that, pairs and a way downhill are tried with fewer strands, from the parameters given and
+//! from ordinary ones, so that a start that is far off does not lead into a valley of its own.
+//! Scale and clump are among the parameters: the paper's segments do not show them, differences of
+//! [neighbours](super::sample) do. Where it is asked for, they are at last set to where the
 //! [correlations](super::correlation) of target and model agree, found by bisection.
 
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::courses::segments;
-use super::ranges::{begin, handles, pairs};
-use super::search::{Problem, Search};
+use super::ranges::{begin, mean_length, ordinary};
+use super::search::Search;
 use super::settle::Correlations;
-use super::slices::Slices;
 use crate::{ChainError, EvenStrands, Operator, ProceduralGroom};
 
 /// How parameters are looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ParameterOptions {
-    /// Strands that are compared. Default 2000: ranks are then known to about 2 % of their spread.
+    /// Strands that are compared, each with the mean of its patch and with its neighbour, which
+    /// comes in addition. Default 2000: ranks are then known to about 2 % of their spread.
     pub strands: usize,
     /// Slices of segments, and as many of spectra. Default 64.
     pub slices: usize,
@@ -42,9 +42,7 @@ pub struct ParameterOptions {
     /// Patches of neighbours whose correlations are measured. Default 24.
     pub patches: usize,
     /// Whether scale is at last set to where the correlations of neighbours' lengths agree, as in
-    /// the paper. Default no: with the guides' segments taken away slices show it, and measured
-    /// better where guides are good; where they are not, as under bends of more than 90 degrees,
-    /// errors of guides look like a spread of lengths, and this keeps out of it.
+    /// the paper. Default no: slices of the differences of neighbours show it, and measured better.
     pub correlate_scale: bool,
     /// Whether clump is at last set to where the correlations of neighbours' distances agree.
     /// Default no: slices measured better on all known grooms.
@@ -79,7 +77,7 @@ impl ParameterOptions {
     /// Steps that are told at most.
     pub(super) fn most_steps(&self, operators: &[Operator]) -> usize {
         let count: usize = operators.iter().map(|operator| operator.parameters().len()).sum();
-        self.rounds * (count + self.steps + 2) + 1
+        self.rounds * (count + self.steps) + 2 * self.steps + 2
     }
 }
 
@@ -144,60 +142,61 @@ pub fn fit_parameters(
     }
     groom.check()?;
     let instanced = groom.instances()?.instance(&groom.guides, &groom.roots.positions);
-    let chosen = spread(sound, options.strands);
-    let problem = Problem::new(groom, &instanced, &chosen);
-    let chosen_targets = targets.select(&chosen);
-    let slices =
-        Slices::new(&chosen_targets, problem.instanced.clone(), options.slices, groom.seed);
-    let length = mean_length(&problem.instanced);
+    let length = mean_length(&instanced);
     begin(&mut groom.chain.operators, length);
-    let handles = handles(&groom.chain.operators, length, points_each);
-    let operators = groom.chain.operators.clone();
-    let mut search = Search { problem: &problem, slices: &slices, operators, handles };
-    let correlations = Correlations::new(groom, &instanced, targets, sound, options);
+    let mut search =
+        Search::new(groom, &instanced, targets, sound, options.strands, options.slices);
     let mut loss = search.loss()?;
+    watch(loss, &search.operators);
+    if options.searches > 0 {
+        let few = options.strands / COARSER;
+        let mut coarse = Search::new(groom, &instanced, targets, sound, few, options.slices);
+        search.operators = best_start(&mut coarse, length, options, watch)?;
+        groom.chain.operators.clone_from(&search.operators);
+        loss = search.loss()?;
+    }
     for _ in 0..options.rounds {
         for h in 0..search.handles.len() {
             loss = search.scan(h, options.searches, loss)?;
             watch(loss, &search.operators);
             groom.chain.operators.clone_from(&search.operators);
         }
-        for pair in pairs(&search.operators, &search.handles) {
-            loss = search.scan_pair(pair, options.searches / 2, loss)?;
-            watch(loss, &search.operators);
-        }
-        for _ in 0..options.steps {
-            let before = loss;
-            loss = search.step(before)?;
-            watch(loss, &search.operators);
-            groom.chain.operators.clone_from(&search.operators);
-            if before - loss < LEAST_GAIN * before {
-                break;
-            }
-        }
+        loss = search.scan_pairs(options.searches, loss)?;
+        loss = search.descend(options.steps, loss, watch)?;
+        groom.chain.operators.clone_from(&search.operators);
     }
-    correlations.settle(&mut search.operators)?;
-    loss = search.loss()?;
+    if groom.chain.operators.iter().any(|operator| options.correlates(operator)) {
+        let correlations = Correlations::new(groom, &instanced, targets, sound, options);
+        correlations.settle(&mut search.operators)?;
+        loss = search.loss()?;
+        groom.chain.operators.clone_from(&search.operators);
+    }
     watch(loss, &search.operators);
-    groom.chain.operators.clone_from(&search.operators);
     Ok(loss)
 }
 
-/// A step that takes less than this share of the loss is the last of its round.
-const LEAST_GAIN: f64 = 1e-4;
+/// How many times fewer strands the first look over all parameters takes.
+const COARSER: usize = 4;
 
-/// At most `count` of the strands, evenly spread over the list.
-pub(super) fn spread(strands: &[usize], count: usize) -> Vec<usize> {
-    let n = strands.len();
-    if n <= count {
-        return strands.to_vec();
+/// Where to begin: from the parameters given and from [ordinary] ones, the pairs that show only
+/// together are looked for and all go downhill; the better of the two.
+fn best_start(
+    search: &mut Search,
+    length: f64,
+    options: &ParameterOptions,
+    watch: &mut Watch<'_>,
+) -> Result<Vec<Operator>, StageError> {
+    let mut best: Option<(f64, Vec<Operator>)> = None;
+    for start in [search.operators.clone(), ordinary(&search.operators, length)] {
+        search.operators = start;
+        let loss = search.loss()?;
+        let loss = search.scan_pairs(options.searches, loss)?;
+        let loss = search.descend(options.steps, loss, watch)?;
+        if best.as_ref().is_none_or(|(least, _)| loss < *least) {
+            best = Some((loss, search.operators.clone()));
+        }
     }
-    (0..count).map(|k| strands[k * n / count]).collect()
-}
-
-fn mean_length(strands: &EvenStrands) -> f64 {
-    let length = |strand: &[DVec3]| segments(strand).map(DVec3::length).sum::<f64>();
-    strands.iter().map(length).sum::<f64>() / strands.len().max(1) as f64
+    Ok(best.map_or_else(Vec::new, |(_, operators)| operators))
 }
 
 #[cfg(test)]

@@ -1,6 +1,9 @@
 //! Where parameters may be, for strands of a certain length.
 
-use crate::Operator;
+use glam::DVec3;
+
+use super::courses::segments;
+use crate::{EvenStrands, Operator};
 
 /// The greatest clump that is looked for: tips are then within a hundredth of their distance. With
 /// more, clump and scale grow without end together where guides are in error.
@@ -19,6 +22,9 @@ pub(super) struct Handle {
     pub(super) step: f64,
     /// Whether candidates are spread evenly by ratio.
     pub(super) by_ratio: bool,
+    /// How much more candidates its range needs than others': the loss has a narrow valley at the
+    /// frequency of a curl.
+    pub(super) fineness: usize,
 }
 
 /// Gives lengths and frequencies that begin at 0, where nothing else would show, a size: curls of
@@ -44,13 +50,36 @@ pub(super) fn begin(operators: &mut [Operator], length: f64) {
     }
 }
 
-/// Two parameters that can stand in for each other: scale and clump, angle and start of a bend.
+/// The same operators with parameters of ordinary size: half of what is
+/// [typical](crate::Parameter::typical), and lengths and frequencies as for those not given.
+pub(super) fn ordinary(operators: &[Operator], length: f64) -> Vec<Operator> {
+    let mut operators = operators.to_vec();
+    for operator in &mut operators {
+        let parameters = operator.parameters();
+        for (parameter, value) in parameters.iter().zip(operator.values_mut()) {
+            *value = if parameter.greatest.is_finite() { 0.5 * parameter.typical } else { 0.0 };
+        }
+    }
+    begin(&mut operators, length);
+    operators
+}
+
+/// The mean length of strands.
+pub(super) fn mean_length(strands: &EvenStrands) -> f64 {
+    let length = |strand: &[DVec3]| segments(strand).map(DVec3::length).sum::<f64>();
+    strands.iter().map(length).sum::<f64>() / strands.len().max(1) as f64
+}
+
+/// Two parameters that can stand in for each other or show only together: frequency and radius of a
+/// curl, angle and start of a bend, scale and clump.
 pub(super) fn pairs(operators: &[Operator], handles: &[Handle]) -> Vec<[usize; 2]> {
     let find = |wanted: &dyn Fn(&Operator) -> bool, index: usize| {
         handles.iter().position(|h| wanted(&operators[h.operator]) && h.index == index)
     };
     let bend = |o: &Operator| matches!(o, Operator::Bend(_));
+    let curl = |o: &Operator| matches!(o, Operator::Curl(_));
     let ends = [
+        (find(&curl, 1), find(&curl, 0)),
         (find(&bend, 0), find(&bend, 1)),
         (
             find(&|o| matches!(o, Operator::Scale(_)), 0),
@@ -66,7 +95,8 @@ pub(super) fn handles(operators: &[Operator], length: f64, points_each: usize) -
     let mut handles = Vec::new();
     for (operator, o) in operators.iter().zip(0..) {
         let mut add = |index, least: f64, greatest: f64, step: f64, by_ratio| {
-            handles.push(Handle { operator: o, index, least, greatest, step, by_ratio });
+            let fineness = if matches!(operator, Operator::Curl(_)) && index == 1 { 3 } else { 1 };
+            handles.push(Handle { operator: o, index, least, greatest, step, by_ratio, fineness });
         };
         match operator {
             Operator::Scale(_) => add(0, 0.0, MOST_SCALE, 0.01, false),
@@ -150,8 +180,15 @@ mod tests {
 
     #[test]
     fn values_are_spread_over_the_range_by_ratio_or_evenly() {
-        let by_ratio =
-            Handle { operator: 0, index: 0, least: 1.0, greatest: 16.0, step: 1.0, by_ratio: true };
+        let by_ratio = Handle {
+            operator: 0,
+            index: 0,
+            least: 1.0,
+            greatest: 16.0,
+            step: 1.0,
+            by_ratio: true,
+            fineness: 1,
+        };
         let near = |a: Vec<f64>, b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(near(by_ratio.spread(3).collect(), [1.0, 4.0, 16.0]));
         let about = by_ratio.about(10.0);

@@ -2,8 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::parameters::{LossError, StageError};
-use super::ranges::Handle;
+use super::parameters::{LossError, StageError, Watch};
+use super::ranges::{Handle, handles, mean_length, pairs};
+use super::sample::Sample;
 use super::slices::Slices;
 use crate::{Bound, Chain, ChainError, EvenStrands, Operator, ProceduralGroom};
 
@@ -47,19 +48,40 @@ impl Problem {
 }
 
 /// What a search has found so far.
-pub(super) struct Search<'a> {
-    pub(super) problem: &'a Problem,
-    pub(super) slices: &'a Slices,
+pub(super) struct Search {
+    problem: Problem,
+    slices: Slices,
     pub(super) operators: Vec<Operator>,
     pub(super) handles: Vec<Handle>,
 }
 
+/// A step that takes less than this share of the loss is the last of its round.
+const LEAST_GAIN: f64 = 1e-4;
 /// Damping of the first trial of a step, over the curvature of the loss.
 const DAMPING: f64 = 1e-3;
 /// Trials of a step, each damped 8 times as much as the one before: to 30 times the curvature.
 const TRIALS: usize = 6;
 
-impl Search<'_> {
+impl Search {
+    /// A search over at most `count` of the `sound` strands, from the groom's operators;
+    /// `instanced` are all the groom's strands before operators.
+    pub(super) fn new(
+        groom: &ProceduralGroom,
+        instanced: &EvenStrands,
+        targets: &EvenStrands,
+        sound: &[usize],
+        count: usize,
+        slices: usize,
+    ) -> Self {
+        let sample = Sample::new(groom, sound, count);
+        let problem = Problem::new(groom, instanced, &sample.strands);
+        let targets = targets.select(&sample.strands);
+        let slices = Slices::new(&targets, &problem.instanced, &sample, slices, groom.seed);
+        let operators = groom.chain.operators.clone();
+        let handles = handles(&operators, mean_length(instanced), targets.points_each());
+        Self { problem, slices, operators, handles }
+    }
+
     fn residuals(&self, operators: &[Operator]) -> Result<DVector<f64>, StageError> {
         let strands = self.problem.strands(operators)?;
         let residuals = DVector::from_vec(self.slices.residuals(&strands));
@@ -80,44 +102,42 @@ impl Search<'_> {
         Ok(residuals.norm_squared() / residuals.len().max(1) as f64)
     }
 
-    /// Tries `count` values over a parameter's range and half as many about the best of them, and
-    /// keeps what is better than the loss `before`; gives the loss.
+    /// Tries `count` values over a parameter's range, more where it needs a [finer](Handle::fineness)
+    /// look, then half as many about the best of them, and keeps what is better than the loss
+    /// `before`; gives the loss.
     pub(super) fn scan(&mut self, h: usize, count: usize, before: f64) -> Result<f64, StageError> {
         let handle = self.handles[h];
         let mut best = (before, handle.value(&self.operators));
-        self.try_all(&handle, count, &mut best)?;
+        self.try_all(&handle, handle.fineness * count, &mut best)?;
         self.try_all(&handle.about(best.1), count / 2, &mut best)?;
         handle.set(&mut self.operators, best.1);
         Ok(best.0)
     }
 
-    /// Tries `count` values over the range of each of two parameters together, and keeps what is
-    /// better than the loss `before`; gives the loss.
+    /// Tries values over the ranges of two parameters together, for all that can stand in for each
+    /// other, and keeps what is better than the loss `before`; gives the loss.
     ///
     /// What one of two takes away the other can give: looked for one after the other, scale and
-    /// clump run to the ends of their ranges.
-    pub(super) fn scan_pair(
-        &mut self,
-        pair: [usize; 2],
-        count: usize,
-        before: f64,
-    ) -> Result<f64, StageError> {
-        let [first, second] = pair.map(|h| self.handles[h]);
+    /// clump run to the ends of their ranges. `count` is as for [`Self::scan`].
+    pub(super) fn scan_pairs(&mut self, count: usize, before: f64) -> Result<f64, StageError> {
         let mut best = before;
-        let mut operators = self.operators.clone();
-        let mut found = self.operators.clone();
-        for a in first.spread(count) {
-            first.set(&mut operators, a);
-            for b in second.spread(count) {
-                second.set(&mut operators, b);
-                let loss = self.loss_at(&operators)?;
-                if loss < best {
-                    best = loss;
-                    found.clone_from(&operators);
+        for [a, b] in pairs(&self.operators, &self.handles) {
+            let [first, second] = [a, b].map(|h| self.handles[h]);
+            let mut operators = self.operators.clone();
+            let mut found = self.operators.clone();
+            for value in first.spread(first.fineness * count / 2) {
+                first.set(&mut operators, value);
+                for value in second.spread(count / 2) {
+                    second.set(&mut operators, value);
+                    let loss = self.loss_at(&operators)?;
+                    if loss < best {
+                        best = loss;
+                        found.clone_from(&operators);
+                    }
                 }
             }
+            self.operators = found;
         }
-        self.operators = found;
         Ok(best)
     }
 
@@ -138,8 +158,28 @@ impl Search<'_> {
         Ok(())
     }
 
+    /// At most `steps` Levenberg-Marquardt steps from the loss `before`, until one gains little;
+    /// gives the loss.
+    pub(super) fn descend(
+        &mut self,
+        steps: usize,
+        mut before: f64,
+        watch: &mut Watch<'_>,
+    ) -> Result<f64, StageError> {
+        for _ in 0..steps {
+            let loss = self.step(before)?;
+            watch(loss, &self.operators);
+            let gain = before - loss;
+            before = loss;
+            if gain < LEAST_GAIN * (loss + gain) {
+                break;
+            }
+        }
+        Ok(before)
+    }
+
     /// One Levenberg-Marquardt step from the loss `before`, damped until it helps; gives the loss.
-    pub(super) fn step(&mut self, before: f64) -> Result<f64, StageError> {
+    fn step(&mut self, before: f64) -> Result<f64, StageError> {
         if self.handles.is_empty() {
             return Ok(before);
         }

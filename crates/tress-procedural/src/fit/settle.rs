@@ -1,8 +1,9 @@
 //! Scale and clump set to where the correlations of neighbours agree.
 
 use super::correlation::{Likeness, Patches, crossing};
-use super::parameters::{LossError, ParameterOptions, StageError, spread};
+use super::parameters::{LossError, ParameterOptions, StageError};
 use super::ranges::{Handle, MOST_CLUMP, MOST_SCALE};
+use super::sample::spread;
 use super::search::Problem;
 use crate::instancing::nearest;
 use crate::{EvenStrands, Operator, ProceduralGroom};
@@ -61,8 +62,15 @@ impl Correlations {
                 Operator::Clump(_) => (&self.distances, MOST_CLUMP),
                 _ => continue,
             };
-            let handle =
-                Handle { operator: o, index: 0, least: 0.0, greatest, step: 0.0, by_ratio: false };
+            let handle = Handle {
+                operator: o,
+                index: 0,
+                least: 0.0,
+                greatest,
+                step: 0.0,
+                by_ratio: false,
+                fineness: 1,
+            };
             let mut trial = operators.to_vec();
             let found = crossing(0.0, greatest, HALVINGS, |value| {
                 handle.set(&mut trial, value);

@@ -6,12 +6,16 @@
 //! to vanish. Ranks are averaged in [`RANKS`] blocks. That is a sum of squares, so that a few
 //! parameters are found by Gauss-Newton steps and not by thousands of gradient steps.
 //!
-//! Departures from the paper, each because it measured better: segments are taken relative to the
-//! strand's instanced guide and in the frame of the guide's root, so that what varies over the head
-//! is not in the way of what varies from strand to strand; slices reach over a random stretch of
-//! the strand (or band of frequencies) where the paper's reach over all of it, so that the start of
-//! a curl and its frequency show in some of them; and each slice is divided by the spread of the
-//! target's numbers.
+//! Departures from the paper, each because it measured better. Segments are taken relative to the
+//! mean of the strand's [patch](super::sample), and apart from them relative to its neighbour's, in
+//! the frame of the guide's root: what is wrong with the guides and what varies over the head is
+//! then not in the way of what varies from strand to strand. Spectra are taken through Hann's
+//! window: without it the jump from a strand's tip back to its root leaks into all frequencies,
+//! where a bend hides frizz. Slices reach over a random stretch of the strand (or band of
+//! frequencies) where the paper's reach over all of it, so that the start of a curl and its
+//! frequency show in some of them; and each slice is divided by the spread of the target's numbers.
+
+use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 use rand::RngExt;
@@ -20,14 +24,17 @@ use realfft::RealFftPlanner;
 use tress_edit::strand_rng;
 use tress_geometry::Frame;
 
+use super::sample::Sample;
 use crate::EvenStrands;
 
 /// Blocks of equal ranks that a slice is averaged in.
 pub(crate) const RANKS: usize = 24;
-/// Share of the spread of all slices that is added to a slice's own. Where strands are alike, at
-/// the root, errors of guides would otherwise outweigh everything else: with 0.02 in its place
-/// starts and scales that only the true guides bear out are not found.
+/// Share of the spread of all slices of a kind that is added to a slice's own: where strands are
+/// alike, at the root, what is left of the errors of guides would otherwise outweigh everything
+/// else.
 const FLOOR: f64 = 0.25;
+/// The most that a difference of ranks counts for, in spreads.
+const FAR: f64 = 3.0;
 
 /// A direction that strands are projected on: weights over a stretch of segments or band of
 /// frequencies, times a direction in space.
@@ -72,49 +79,60 @@ impl Slice {
 pub(crate) struct Slices {
     segments: Vec<Slice>,
     spectra: Vec<Slice>,
-    /// Frame of the guide's root, and the guide's segments in it, for each strand.
+    /// Hann's window.
+    window: Vec<f64>,
+    /// Frame of the guide's root for each strand.
     frames: Vec<DMat3>,
-    guides: EvenStrands,
+    /// What strands are compared with beside their mates.
+    course: Course,
+    mates: Vec<[usize; 2]>,
     /// The target's ranks, and one over their spread, slice after slice.
     ranks: Vec<f64>,
     factors: Vec<f64>,
 }
 
+/// The course that strands are seen from.
+enum Course {
+    /// The mean of the patch a strand is of.
+    Patch(Vec<Range<usize>>),
+    /// The strand's instanced guide, for as many strands.
+    Guide(EvenStrands),
+}
+
 impl Slices {
-    /// Slices of target strands about their instanced guides; `count` of segments and of spectra.
-    pub(crate) fn new(targets: &EvenStrands, guides: EvenStrands, count: usize, seed: u64) -> Self {
+    /// Slices of the sample's target strands; `guides` are their instanced guides. `count` of
+    /// segments and of spectra.
+    pub(crate) fn new(
+        targets: &EvenStrands,
+        guides: &EvenStrands,
+        sample: &Sample,
+        count: usize,
+        seed: u64,
+    ) -> Self {
         let n = targets.points_each() - 1;
         let frame = |guide: &[DVec3]| {
             let reach = guide[(guide.len() / 10).max(1)] - guide[0];
             Frame::along(DVec3::ZERO, reach).map_or(DMat3::IDENTITY, |f| f.axes.transpose())
         };
-        let frames = guides.iter().map(frame).collect();
-        let segments = (0..count).map(|k| Slice::random(n, false, seed, k)).collect();
-        let spectra = (0..count).map(|k| Slice::random(n / 2 + 1, true, !seed, k)).collect();
-        let mut slices =
-            Self { segments, spectra, frames, guides, ranks: Vec::new(), factors: Vec::new() };
-        slices.ranks = slices.ranks_of(targets);
-        slices.factors = slices.factors(count);
-        slices
-    }
-
-    /// One over the spread of each slice's ranks.
-    fn factors(&self, count: usize) -> Vec<f64> {
-        let spreads: Vec<f64> = self
-            .ranks
-            .chunks(RANKS)
-            .map(|ranks| {
-                let mean = ranks.iter().sum::<f64>() / RANKS as f64;
-                (ranks.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / RANKS as f64).sqrt()
-            })
-            .collect();
-        let mean = |spreads: &[f64]| spreads.iter().sum::<f64>() / spreads.len().max(1) as f64;
-        let floors = [mean(&spreads[..count]), mean(&spreads[count..])].map(|m| FLOOR * m);
-        let factor = |(k, spread): (usize, &f64)| {
-            let whole = spread + floors[usize::from(k >= count)];
-            if whole > 0.0 { 1.0 / whole } else { 1.0 }
+        let turn = |j: usize| std::f64::consts::PI * (j as f64 + 0.5) / n as f64;
+        let alone: Vec<usize> = (0..sample.strands.len() - sample.mates.len()).collect();
+        let mut slices = Self {
+            segments: (0..count).map(|k| Slice::random(n, false, seed, k)).collect(),
+            spectra: (0..count).map(|k| Slice::random(n / 2 + 1, true, !seed, k)).collect(),
+            window: (0..n).map(|j| turn(j).sin().powi(2)).collect(),
+            frames: guides.iter().map(frame).collect(),
+            course: if sample.patches.is_empty() {
+                Course::Guide(guides.select(&alone))
+            } else {
+                Course::Patch(sample.patches.clone())
+            },
+            mates: sample.mates.clone(),
+            ranks: Vec::new(),
+            factors: Vec::new(),
         };
-        spreads.iter().enumerate().map(factor).collect()
+        slices.ranks = slices.ranks_of(targets);
+        slices.factors = slices.ranks.chunks(RANKS * count).flat_map(factors).collect();
+        slices
     }
 
     /// The differences of ranks, over their spreads: their mean square is the loss.
@@ -122,27 +140,53 @@ impl Slices {
         let ranks = self.ranks_of(strands);
         let pairs = ranks.chunks(RANKS).zip(self.ranks.chunks(RANKS)).zip(&self.factors);
         pairs
-            .flat_map(|((a, b), factor)| a.iter().zip(b).map(move |(a, b)| (a - b) * factor))
+            .flat_map(|((a, b), factor)| a.iter().zip(b).map(move |(a, b)| near((a - b) * factor)))
             .collect()
     }
 
-    /// The mean ranks of every slice.
+    /// The mean ranks of every slice: of strands against their courses, of segments and then of
+    /// spectra, and as many again of strands against their mates.
     fn ranks_of(&self, strands: &EvenStrands) -> Vec<f64> {
-        let m = strands.points_each();
+        let e = |i: usize, j: usize| strands.strand(i)[j + 1] - strands.strand(i)[j];
+        let mut ranks = match &self.course {
+            Course::Patch(patches) => {
+                let (patch_of, means) = means(strands, patches);
+                self.ranks_of_rows(patch_of.len(), |k, j| {
+                    let mean = means.strand(patch_of[k]);
+                    self.frames[k] * (e(k, j) - (mean[j + 1] - mean[j]))
+                })
+            }
+            Course::Guide(guides) => self.ranks_of_rows(guides.len(), |k, j| {
+                let guide = guides.strand(k);
+                self.frames[k] * (e(k, j) - (guide[j + 1] - guide[j]))
+            }),
+        };
+        ranks.extend(self.ranks_of_rows(self.mates.len(), |k, j| {
+            let [a, b] = self.mates[k];
+            self.frames[a] * (e(a, j) - e(b, j))
+        }));
+        ranks
+    }
+
+    /// The mean ranks of every slice over `rows` rows of segments.
+    fn ranks_of_rows(
+        &self,
+        rows: usize,
+        segment: impl Fn(usize, usize) -> DVec3 + Sync,
+    ) -> Vec<f64> {
+        let n = self.window.len();
         let slices = self.segments.len() + self.spectra.len();
-        let fft = RealFftPlanner::<f64>::new().plan_fft_forward(m - 1);
-        // Strand after strand, a number a slice.
-        let mut projections = vec![0.0; strands.len() * slices];
+        let fft = RealFftPlanner::<f64>::new().plan_fft_forward(n);
+        // Row after row, a number a slice.
+        let mut projections = vec![0.0; rows * slices];
         projections.par_chunks_mut(slices).with_min_len(32).enumerate().for_each_init(
-            || (vec![DVec3::ZERO; m - 1], vec![DVec3::ZERO; (m - 1) / 2 + 1], Spectrum::new(&fft)),
+            || (vec![DVec3::ZERO; n], vec![DVec3::ZERO; n / 2 + 1], Spectrum::new(&fft)),
             |(row, spectrum, work), (i, out)| {
-                let (strand, guide) = (strands.strand(i), self.guides.strand(i));
-                for (j, e) in row.iter_mut().enumerate() {
-                    *e = self.frames[i] * ((strand[j + 1] - strand[j]) - (guide[j + 1] - guide[j]));
-                }
-                work.absolute(&fft, row, spectrum);
+                row.iter_mut().enumerate().for_each(|(j, e)| *e = segment(i, j));
                 let (first, last) = out.split_at_mut(self.segments.len());
                 first.iter_mut().zip(&self.segments).for_each(|(p, s)| *p = s.project(row));
+                row.iter_mut().zip(&self.window).for_each(|(e, weight)| *e *= *weight);
+                work.absolute(&fft, row, spectrum);
                 last.iter_mut().zip(&self.spectra).for_each(|(p, s)| *p = s.project(spectrum));
             },
         );
@@ -157,6 +201,41 @@ impl Slices {
             .collect();
         ranks.concat()
     }
+}
+
+/// A difference that is far off counts for less, at most for [`FAR`]: a guide that points along the
+/// axis where a curl's normals turn over can tear its strands, and nothing else is to be bent for
+/// that.
+fn near(difference: f64) -> f64 {
+    difference / (1.0 + (difference / FAR).powi(2)).sqrt()
+}
+
+/// Which patch each strand is of, and the mean of each patch.
+fn means(strands: &EvenStrands, patches: &[Range<usize>]) -> (Vec<usize>, EvenStrands) {
+    let mut means = EvenStrands::zeros(patches.len(), strands.points_each());
+    let mut patch_of = Vec::new();
+    for (p, patch) in patches.iter().enumerate() {
+        patch_of.extend(patch.clone().map(|_| p));
+        for i in patch.clone() {
+            let sums = means.strand_mut(p).iter_mut().zip(strands.strand(i));
+            sums.for_each(|(sum, x)| *sum += *x / patch.len() as f64);
+        }
+    }
+    (patch_of, means)
+}
+
+/// One over the spread of the target's ranks, for slices of a kind.
+fn factors(ranks: &[f64]) -> Vec<f64> {
+    let spreads: Vec<f64> = ranks
+        .chunks(RANKS)
+        .map(|ranks| {
+            let mean = ranks.iter().sum::<f64>() / RANKS as f64;
+            (ranks.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / RANKS as f64).sqrt()
+        })
+        .collect();
+    let floor = FLOOR * spreads.iter().sum::<f64>() / spreads.len().max(1) as f64;
+    let factor = |spread: &f64| if spread + floor > 0.0 { 1.0 / (spread + floor) } else { 1.0 };
+    spreads.iter().map(factor).collect()
 }
 
 /// Means of sorted numbers in blocks of equal count.
@@ -237,12 +316,33 @@ mod tests {
     #[test]
     fn the_loss_ignores_the_order_of_strands_and_grows_with_the_difference() {
         let (targets, guides) = curled(0.3, 1);
-        let slices = Slices::new(&targets, guides, 24, 5);
+        let sample = Sample { strands: (0..300).collect(), patches: Vec::new(), mates: Vec::new() };
+        let slices = Slices::new(&targets, &guides, &sample, 24, 5);
         let loss =
             |strands: &EvenStrands| slices.residuals(strands).iter().map(|r| r * r).sum::<f64>();
         let backwards: Vec<usize> = (0..300).rev().collect();
         assert!(loss(&targets.select(&backwards)) < 1e-20);
         let at: Vec<f64> = [0.3, 0.33, 0.4, 0.6].map(|radius| loss(&curled(radius, 2).0)).to_vec();
         assert!(at.windows(2).all(|pair| pair[0] < pair[1]), "{at:?}");
+    }
+    #[test]
+    fn what_a_patch_has_in_common_does_not_show() {
+        let (targets, guides) = curled(0.3, 1);
+        let sample = Sample {
+            strands: (0..300).collect(),
+            patches: vec![0..20, 20..40, 40..60],
+            mates: (0..60).map(|i| [i, 20 * (i / 20) + (i + 1) % 20]).collect(),
+        };
+        let slices = Slices::new(&targets, &guides, &sample, 24, 5);
+        let loss =
+            |strands: &EvenStrands| slices.residuals(strands).iter().map(|r| r * r).sum::<f64>();
+        let mut moved = targets.clone();
+        for i in 0..300 {
+            let strand = moved.strand_mut(i).iter_mut().zip(0..);
+            strand.for_each(|(x, j)| *x += DVec3::X * (f64::from(j) * 0.1).sin() * (i / 20) as f64);
+        }
+        assert!(loss(&moved) < 1e-20);
+        moved.strand_mut(7).iter_mut().for_each(|x| x.y *= 1.2);
+        assert!(loss(&moved) > 1e-3);
     }
 }

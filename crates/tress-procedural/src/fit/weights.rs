@@ -37,6 +37,34 @@ pub fn fit_weights(
     Instances { weights: weights.concat(), ..instances.clone() }
 }
 
+/// Multiples of the spacing of guides that are tried for `sigma`.
+const SIGMAS: [f64; 8] = [0.3, 0.4, 0.5, 0.6, 0.7, 0.85, 1.0, 1.25];
+
+/// The `sigma` of weights by distance that brings strands nearest their targets, with its
+/// instances: how far a guide's strands are alike before they turn into the next one's is the
+/// groom's own, and clump is what is left of it. `spacing` is that of the guides.
+pub(super) fn fit_sigma(
+    guides: &EvenStrands,
+    targets: &EvenStrands,
+    spacing: f64,
+    by_distance: impl Fn(f64) -> Instances,
+) -> (f64, Instances) {
+    let roots = targets.roots();
+    let instances = |sigma| (sigma, by_distance(sigma));
+    let loss = |(_, instances): &(f64, Instances)| {
+        vertex_loss(&instances.instance(guides, &roots), targets)
+    };
+    let (mut best, mut least) = (instances(spacing), f64::INFINITY);
+    for factor in SIGMAS {
+        let trial = instances(factor * spacing);
+        let value = loss(&trial);
+        if value < least {
+            (best, least) = (trial, value);
+        }
+    }
+    best
+}
+
 /// Mean square distance of points of instanced strands from their targets [IPG 5].
 pub(crate) fn vertex_loss(strands: &EvenStrands, targets: &EvenStrands) -> f64 {
     let squares = |(a, b): (&DVec3, &DVec3)| a.distance_squared(*b);

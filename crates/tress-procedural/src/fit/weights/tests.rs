@@ -37,6 +37,17 @@ fn weights_that_made_the_strands_are_found() {
 }
 
 #[test]
+fn the_sigma_that_made_the_strands_is_found() {
+    let guides = wandering(40, 1);
+    let seats = wandering(200, 2);
+    let roots = |strands: &EvenStrands| Roots { positions: strands.roots(), uv: None };
+    let by_distance = |sigma| Instances::by_distance(&roots(&guides), &roots(&seats), 8, sigma);
+    let strands = by_distance(0.6).instance(&guides, &seats.roots());
+    let (sigma, found) = fit_sigma(&guides, &strands, 1.0, by_distance);
+    assert_eq!((sigma, found), (0.6, by_distance(0.6)));
+}
+
+#[test]
 fn weights_are_a_blend_and_satisfy_the_conditions_of_the_least() {
     let guides = wandering(20, 3);
     let targets = wandering(40, 4);
