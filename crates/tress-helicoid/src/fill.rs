@@ -51,7 +51,7 @@ pub struct FillOptions {
     /// hairs are alike, with more they clump about the guides.
     pub exponent: f64,
     /// How many of the nearest guides count; 0 for all, as published. Default 8.
-    pub neighbours: usize,
+    pub neighbors: usize,
     /// Stretches of each hair that are held to the mean of the guides' points, each on the average
     /// of its length; 0, as published and the default, leaves the hair where its parameters lead.
     /// What is mixed of parameters bends right and ends anywhere, for every error of direction
@@ -63,7 +63,7 @@ pub struct FillOptions {
 
 impl Default for FillOptions {
     fn default() -> Self {
-        Self { mixing: Mixing::default(), exponent: 3.0, neighbours: 8, hold: 0 }
+        Self { mixing: Mixing::default(), exponent: 3.0, neighbors: 8, hold: 0 }
     }
 }
 

@@ -75,6 +75,19 @@ pub enum WispError {
         /// Its value.
         value: f64,
     },
+    /// Wisps that are to have no hair at all.
+    ///
+    /// ```
+    /// use tress_geometry::Strands;
+    /// use tress_helicoid::{HelicoidGroom, Tracing, WispError, WispOptions, wisps};
+    ///
+    /// let options = WispOptions { hairs: 0, ..WispOptions::default() };
+    /// let none = HelicoidGroom::new(vec![], Strands::default())?;
+    /// assert_eq!(wisps(&none, &options, Tracing::default(), 0), Err(WispError::NoHair));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[error("0 hairs a wisp, expected at least 1, the guide")]
+    NoHair,
     /// Guides that cannot be traced, or too many points.
     #[error(transparent)]
     Sample(#[from] SampleError),
@@ -94,6 +107,9 @@ impl WispOptions {
         let bad = |&(_, value): &(&str, f64)| !(0.0 <= value && value.is_finite());
         if let Some((name, value)) = numbers.into_iter().chain(factors).find(bad) {
             return Err(WispError::Range { name, value });
+        }
+        if self.hairs == 0 {
+            return Err(WispError::NoHair);
         }
         if self.points < 2 {
             return Err(SampleError::Points(self.points).into());

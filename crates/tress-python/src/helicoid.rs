@@ -239,7 +239,7 @@ pub(crate) fn wisps(
 ///         frames are mixed as they are where None.
 ///     mixing: What is mixed: "Bends", or "Parameters" as published.
 ///     exponent: The power of the inverse distance.
-///     neighbours: How many of the nearest guides count; 0 for all.
+///     neighbors: How many of the nearest guides count; 0 for all.
 ///
 /// Returns:
 ///     The HelicoidGroom of the new hairs, and those that had to take the nearest guide's
@@ -247,7 +247,7 @@ pub(crate) fn wisps(
 #[pyfunction]
 #[pyo3(signature = (guides, roots, *, normals=None, guide_normals=None, **options),
        text_signature = "(guides, roots, *, normals=None, guide_normals=None, mixing=None, \
-                         exponent=None, neighbours=None)")]
+                         exponent=None, neighbors=None)")]
 pub(crate) fn fill<'py>(
     py: Python<'py>,
     guides: &Bound<'_, HelicoidGroom>,

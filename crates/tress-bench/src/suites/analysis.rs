@@ -1,11 +1,9 @@
 //! Seeing a groom: time of an analysis and of its report; switchbacks, planar waves and wisps found
 //! against those that were put in.
 
-use std::collections::BTreeMap;
-
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use tress::analysis::{Analysis, Wisps};
+use tress::analysis::{Analysis, Wisps, adjusted_rand};
 use tress::geometry::glam::{DMat3, DQuat, DVec3};
 use tress::geometry::{Column, Element, Frame, Groom, Strands, SuperHelix, names};
 use tress::grow::{Coils, Density, GUIDE, grow, preset, scatter};
@@ -194,24 +192,11 @@ fn wisps(figures: &mut Figures) -> Outcome {
     Ok(())
 }
 
-/// The adjusted Rand index (Hubert and Arabie, 1985) of the wisps found and those that an attribute
-/// tells: 1 for the same, 0 in the mean for wisps by chance.
+/// How well wisps found agree with those that an attribute tells.
 fn agreement(groom: &Groom, attribute: &str) -> Outcome<f64> {
     let found = Wisps::of(groom, &Analysis::of(groom)).wisp;
-    let Some(Column::Int(known)) = groom.strand_attributes().get(attribute) else {
-        return Err(format!("the groom has no attribute {attribute}").into());
-    };
-    let (mut both, mut of_found, mut of_known) =
-        (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
-    for (&a, &b) in found.iter().zip(known) {
-        *both.entry((a, b)).or_insert(0.0) += 1.0;
-        *of_found.entry(a).or_insert(0.0) += 1.0;
-        *of_known.entry(b).or_insert(0.0) += 1.0;
+    match groom.strand_attributes().get(attribute) {
+        Some(Column::Int(known)) => Ok(adjusted_rand(known, &found)),
+        _ => Err(format!("the groom has no attribute {attribute}").into()),
     }
-    let pairs = |n: f64| 0.5 * n * (n - 1.0);
-    let together = both.into_values().map(pairs).sum::<f64>();
-    let by_found = of_found.into_values().map(pairs).sum::<f64>();
-    let by_known = of_known.into_values().map(pairs).sum::<f64>();
-    let by_chance = by_found * by_known / pairs(found.len() as f64);
-    Ok((together - by_chance) / (0.5 * (by_found + by_known) - by_chance))
 }

@@ -3,6 +3,8 @@
 
 use std::time::Instant;
 
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 use tress::fit::{Spline, TangentRule};
 use tress::geometry::glam::{DMat3, DVec3};
 use tress::geometry::{Frame, Groom, Strands};
@@ -10,9 +12,6 @@ use tress::helicoid::{
     FillOptions, FitOptions, Helicoid, HelicoidGroom, Method, PHelicoid, Piece, Pieces, Roll,
     Roots, Tracing, fill, fit, fit_strand, sample, shepard,
 };
-
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Mcg;
 
 use crate::Outcome;
 use crate::grooms;
@@ -74,7 +73,7 @@ fn filling(figures: &mut Figures) -> Outcome {
     let guides = HelicoidGroom::new((0..9).map(root).collect(), pieces)?;
     let at = |i: i32| DVec3::new(f64::from(i % 300), f64::from(i / 300), 0.0) / 150.0;
     let roots: Vec<DVec3> = (0..90_000).map(at).collect();
-    let options = FillOptions { neighbours: 0, ..FillOptions::default() };
+    let options = FillOptions { neighbors: 0, ..FillOptions::default() };
     let filled = || fill(&guides, Roots::Points(&roots), &options);
     let seconds = best_of(3, filled)?;
     figures.add("helicoid_fill_90k_seconds", seconds, "s", Bar::AtMost(1.0));

@@ -147,7 +147,7 @@ struct Sums {
     /// `kB sqrt(1 + alpha^2)`, which bounds `alpha kB` whatever `alpha` the mean has. It is worth
     /// as much as the bends agree: without the guides' `alpha` their `kB` says nothing.
     climb: f64,
-    /// The least and the greatest `kN`.
+    /// The least and the greatest `kN` that the guides have or a fit could have given them.
     kn: (f64, f64),
     mean_curvature: f64,
     length: f64,

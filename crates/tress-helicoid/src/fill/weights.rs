@@ -30,7 +30,7 @@ pub fn shepard(
     weights.clear();
     weights.extend(guides.iter().map(|guide| guide.distance(position)).enumerate());
     let nearer = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0));
-    let most = if options.neighbours == 0 { guides.len() } else { options.neighbours };
+    let most = if options.neighbors == 0 { guides.len() } else { options.neighbors };
     if most < weights.len() {
         weights.select_nth_unstable_by(most, nearer);
         weights.truncate(most);

@@ -21,7 +21,8 @@ pub(super) struct Prior {
     /// A curvature of one over the piece's length costs as much as this distance, in lengths of the
     /// piece, at each point.
     pub(super) curvature: f64,
-    /// A piece longer by a factor of e costs as much as this distance.
+    /// A piece longer by a factor of e costs as much as this distance, in lengths of the piece, at
+    /// each point.
     pub(super) stretch: f64,
     /// A curvature that differs from what it was at the start by one over the piece's length costs
     /// as much.
@@ -75,7 +76,7 @@ impl Pull {
         let own = each * (prior.curvature * l * l).powi(2);
         let own = [BEND * own, BEND * own, own, own * (1.0 + k.alpha * k.alpha)];
         let kept = each * (prior.keep * l * l).powi(2);
-        let mut pull = Self { weights: [0.0; 5], gradient: [0.0; 5], cost: 0.0 };
+        let mut pull = Self { weights: [0.0; OF_PIECE], gradient: [0.0; OF_PIECE], cost: 0.0 };
         for (j, (value, before)) in curvatures(&k).into_iter().zip(rest.curvatures[i]).enumerate() {
             pull.add(j, own[j], value);
             pull.add(j, kept, value - before);

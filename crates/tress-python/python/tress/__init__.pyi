@@ -367,7 +367,7 @@ def fill(
     guide_normals: ArrayLike | None = None,
     mixing: Literal["Bends", "Parameters"] | None = None,
     exponent: float | None = None,
-    neighbours: int | None = None,
+    neighbors: int | None = None,
 ) -> tuple[HelicoidGroom, NDArray[np.int64]]: ...
 
 class ProceduralGroom:

@@ -7,7 +7,6 @@ use tress::geometry::glam::DVec3;
 use tress::helicoid::{
     FillOptions, Filled, HelicoidGroom, Mixing, Roots, Tracing, fill, normals_at, sample,
 };
-use tress::io::Model;
 
 use crate::args::Everywhere;
 use crate::failure::Failure;
@@ -50,13 +49,13 @@ pub(crate) struct FillArgs {
     exponent: f64,
     /// Nearest guides that count; 0 for all
     #[arg(long, value_name = "N", default_value_t = 8)]
-    neighbours: usize,
+    neighbors: usize,
     /// Hold every hair in so many stretches to the mean of the guides' points: no more than a coil
     /// has turns
     #[arg(long, value_name = "N", default_value_t = 0)]
     hold: usize,
     /// Mix (kT, kN, kB, alpha) as they are, pieces equally long, all guides counting
-    #[arg(long, conflicts_with_all = ["neighbours", "hold"])]
+    #[arg(long, conflicts_with_all = ["neighbors", "hold"])]
     published: bool,
     /// Points a strand
     #[arg(long, value_name = "N", default_value_t = 40)]
@@ -70,20 +69,20 @@ impl FillArgs {
     fn options(&self) -> FillOptions {
         let exponent = self.exponent;
         if self.published {
-            return FillOptions { mixing: Mixing::Parameters, exponent, neighbours: 0, hold: 0 };
+            return FillOptions { mixing: Mixing::Parameters, exponent, neighbors: 0, hold: 0 };
         }
-        let (neighbours, hold) = (self.neighbours, self.hold);
-        FillOptions { mixing: Mixing::Bends, exponent, neighbours, hold }
+        let (neighbors, hold) = (self.neighbors, self.hold);
+        FillOptions { mixing: Mixing::Bends, exponent, neighbors, hold }
     }
 }
 
 pub(super) fn run(args: &FillArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     let inputs = [Some(&args.guides), args.roots.as_ref(), args.scalp.as_ref()];
     let inputs: Vec<_> = inputs.into_iter().flatten().map(PathBuf::as_path).collect();
-    if ron_file::is_ron(&args.output) {
-        ron_file::check(&inputs, &args.output, everywhere)?;
+    if target::has_extension(&args.output, "ron") {
+        target::check_place(&inputs, &args.output, everywhere)?;
     } else {
-        target::check(&inputs, &args.output, everywhere)?;
+        target::check_polylines(&inputs, &args.output, everywhere)?;
     }
     if !(0.0 < args.keep && args.keep <= 1.0) {
         let message = format!("--keep is {}, expected above 0, at most 1", args.keep);
@@ -102,7 +101,7 @@ pub(super) fn run(args: &FillArgs, everywhere: &Everywhere) -> Result<Report, Fa
         let line = format!("{} hairs like their nearest guide", count(filled.replaced.len()));
         report.say("replaced", line + ": what was mixed was singular on their path");
     }
-    if ron_file::is_ron(&args.output) {
+    if target::has_extension(&args.output, "ron") {
         ron_file::write(&args.output, &filled.hairs, everywhere, &progress, &mut report)?;
         return Ok(report);
     }
@@ -133,15 +132,7 @@ fn filled(
     let options = args.options();
     match (&args.roots, &args.scalp, args.count) {
         (Some(file), _, _) => {
-            let roots = match source::read(file, progress)? {
-                Model::Polylines(groom) => {
-                    let first = |points: &[DVec3]| points.first().copied().unwrap_or(DVec3::NAN);
-                    groom.strands().iter().map(first).collect()
-                }
-                Model::Helices(helices) => {
-                    helices.roots().iter().map(|root| root.position).collect::<Vec<_>>()
-                }
-            };
+            let roots = source::roots(file, progress)?;
             progress.stage("filling");
             Ok(fill(guides, Roots::Points(&roots), &options)?)
         }
