@@ -29,6 +29,7 @@ use crate::args::Everywhere;
 use crate::failure::Failure;
 use crate::options::FormatArgs;
 use crate::report::Report;
+use crate::target;
 
 /// The commands.
 #[derive(Debug, Subcommand)]
@@ -95,6 +96,7 @@ impl Command {
             Self::Recoil(args) => Some(&args.road.format),
             Self::Sculpt(args) => Some(&args.road.format),
             Self::Grow(args) => Some(&args.format),
+            Self::Groom(args) => args.format(),
             Self::Switchback(args) => Some(args.format()),
             Self::Helicoid(args) => args.format(),
             _ => None,
@@ -109,6 +111,9 @@ fn given<'a>(files: &[&'a Option<PathBuf>]) -> Vec<&'a Path> {
 
 /// Runs a command.
 pub(crate) fn run(command: &Command, everywhere: &Everywhere) -> Result<Report, Failure> {
+    if let (Some(output), Some(format)) = (command.outputs().first(), command.format()) {
+        target::check_program(output, format)?;
+    }
     match command {
         Command::Demo(args) => demo::run(args, everywhere),
         Command::Recoil(args) => recoil::run(args, everywhere),

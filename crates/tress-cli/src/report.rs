@@ -42,7 +42,7 @@ impl Report {
 
     /// Adds a line of a name and what is to be said of it.
     pub(crate) fn say(&mut self, name: &str, what: impl Display) {
-        self.lines.push(format!("{name:<14}{what}"));
+        self.lines.push(format!("{name:<13} {what}"));
     }
 
     /// Prints to standard output; a reader who has seen enough is no failure.

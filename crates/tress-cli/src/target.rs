@@ -21,23 +21,90 @@ pub(crate) fn check(
     everywhere: &Everywhere,
 ) -> Result<Format, Failure> {
     let format = Format::from_path(output)?;
-    check_in_place(inputs, output, everywhere)?;
+    check_place(inputs, output, everywhere)?;
     Ok(format)
 }
 
-/// Says no to overwriting an input.
-pub(crate) fn check_in_place(
+/// The same for a groom that is edited, and no to choices that the format has no place for.
+pub(crate) fn check_edited(
+    input: &Path,
+    output: &Path,
+    road: &RoadArgs,
+    everywhere: &Everywhere,
+) -> Result<(), Failure> {
+    let format = check(&[input], output, everywhere)?;
+    check_sampling(format, &road.sampling)
+}
+
+/// The same for polylines, and no to a file of super-helices.
+pub(crate) fn check_polylines(
     inputs: &[&Path],
     output: &Path,
     everywhere: &Everywhere,
 ) -> Result<(), Failure> {
+    if check(inputs, output, everywhere)? == Format::Tress {
+        let file = output.display();
+        let message = format!("{file}: a .tress file holds super-helices; name a polyline format");
+        return Err(Failure::Usage(message));
+    }
+    Ok(())
+}
+
+/// The same for a file of another kind, by its extension.
+pub(crate) fn check_kind(
+    inputs: &[&Path],
+    output: &Path,
+    (what, extension): (&str, &str),
+    everywhere: &Everywhere,
+) -> Result<(), Failure> {
+    if !has_extension(output, extension) {
+        let file = output.display();
+        return Err(Failure::Usage(format!("{file}: {what} written to a .{extension} file")));
+    }
+    check_place(inputs, output, everywhere)
+}
+
+/// Whether a path names a file of this kind.
+pub(crate) fn has_extension(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
+}
+
+fn check_sampling(format: Format, sampling: &SamplingArgs) -> Result<(), Failure> {
+    if format == Format::Tress && sampling.is_given() {
+        let message = "--points and --spacing mean polylines; a .tress file has none";
+        return Err(Failure::Usage(message.into()));
+    }
+    Ok(())
+}
+
+/// Says no to files that the program which the output is for does not read.
+pub(crate) fn check_program(output: &Path, format: &FormatArgs) -> Result<(), Failure> {
+    match format.target {
+        Some(TargetArg::Unreal) if Format::from_path(output)? != Format::Abc => {
+            let message = format!("{}: --target unreal writes an .abc file", output.display());
+            Err(Failure::Usage(message))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Says no to a folder that is not there, and to overwriting an input.
+pub(crate) fn check_place(
+    inputs: &[&Path],
+    output: &Path,
+    everywhere: &Everywhere,
+) -> Result<(), Failure> {
+    let file = output.display();
+    let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+        return Err(Failure::Failed(format!("{file}: there is no folder {}", folder.display())));
+    }
     let place = |path: &Path| fs::canonicalize(path).ok();
     let target = place(output);
     if everywhere.in_place || target.is_none() || inputs.iter().all(|input| place(input) != target)
     {
         return Ok(());
     }
-    let file = output.display();
     Err(Failure::Failed(format!("{file} is an input: say --in-place to overwrite it")))
 }
 
@@ -50,11 +117,9 @@ pub(crate) fn write_curved(
     progress: &Progress,
     report: &mut Report,
 ) -> Result<(), Failure> {
-    if Format::from_path(output)? == Format::Tress {
-        if sampling.is_given() {
-            let message = "--points and --spacing mean polylines; a .tress file has none";
-            return Err(Failure::Usage(message.into()));
-        }
+    let kind = Format::from_path(output)?;
+    check_sampling(kind, sampling)?;
+    if kind == Format::Tress {
         progress.stage(format!("writing {}", output.display()));
         tress::io::write_helices(output, &curved.helices)?;
         report.set("output", output);
@@ -108,9 +173,6 @@ pub(crate) fn write(
 
 /// Writes polylines as Unreal imports them, and reports what its limits cost.
 fn write_for_unreal(output: &Path, groom: &Groom, report: &mut Report) -> Result<(), Failure> {
-    if Format::from_path(output)? != Format::Abc {
-        return Err(Failure::Usage("--target unreal writes an .abc file".into()));
-    }
     let fit = unreal::write(output, groom, &UnrealOptions::default())?;
     let unit = if fit.unit_is_assumed { "units" } else { "cm" };
     let error = fit.greatest_error();

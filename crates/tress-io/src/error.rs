@@ -176,6 +176,17 @@ pub enum ReadError {
     /// ```
     #[error(transparent)]
     Format(#[from] UnknownExtension),
+    /// The extension is not one of a mesh's.
+    ///
+    /// ```
+    /// let error = tress_io::mesh::read("scalp.hair").unwrap_err();
+    /// assert_eq!(error.to_string(), "scalp.hair: meshes are read from .obj and .ply files");
+    /// ```
+    #[error("{}: meshes are read from .obj and .ply files", path.display())]
+    NotAMesh {
+        /// The path.
+        path: PathBuf,
+    },
     /// The file cannot be opened.
     ///
     /// ```
@@ -224,7 +235,7 @@ pub enum EncodeError {
     #[error("{0}")]
     Groom(String),
     /// The stream took no more.
-    #[error("{}", describe_io(.0))]
+    #[error("{}", describe_write(.0))]
     Io(#[from] io::Error),
 }
 
@@ -243,6 +254,14 @@ pub enum WriteError {
         /// Which strand and why, or what the system said.
         source: EncodeError,
     },
+}
+
+/// The same of a file that is written, which need not be there.
+fn describe_write(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "no such folder".into(),
+        _ => describe_io(error),
+    }
 }
 
 /// What the system said, in words that need no system to understand.

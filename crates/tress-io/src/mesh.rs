@@ -12,7 +12,7 @@ use glam::DVec3;
 use tress_geometry::Mesh;
 
 use crate::text::{Lines, integer, point, quoted, words};
-use crate::{Format, ParseError, Place, Problem, ReadError, UnknownExtension, ply};
+use crate::{Format, ParseError, Place, Problem, ReadError, ply};
 
 /// A mesh and how dense hair is to stand on it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,12 +32,12 @@ pub struct Scalp {
 /// If the extension is another, the file cannot be opened, or it holds no mesh.
 pub fn read(path: impl AsRef<Path>) -> Result<Scalp, ReadError> {
     let path = path.as_ref();
-    let format = Format::from_path(path)?;
-    if !matches!(format, Format::Obj | Format::Ply) {
-        return Err(ReadError::Format(UnknownExtension { path: path.into() }));
+    let format = Format::from_path(path);
+    if !matches!(format, Ok(Format::Obj | Format::Ply)) {
+        return Err(ReadError::NotAMesh { path: path.into() });
     }
     let file = File::open(path).map_err(|source| ReadError::Open { path: path.into(), source })?;
-    let scalp = if format == Format::Obj {
+    let scalp = if format == Ok(Format::Obj) {
         read_obj(BufReader::with_capacity(1 << 16, file))
     } else {
         contents(file).and_then(|bytes| read_ply(&bytes))

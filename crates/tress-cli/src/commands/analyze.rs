@@ -18,7 +18,7 @@ use crate::failure::Failure;
 use crate::options::SpaceArgs;
 use crate::progress::Progress;
 use crate::report::{Report, count, short, spread};
-use crate::target;
+use crate::target::{self, has_extension};
 
 use super::info::{say_defects, say_measures};
 use super::render::{ViewArg, view};
@@ -135,13 +135,9 @@ fn check(args: &AnalyzeArgs, everywhere: &Everywhere) -> Result<(), Failure> {
             let (file, wanted) = (file.display(), extensions.join(" or ."));
             return Err(Failure::Usage(format!("{file}: this is written as .{wanted}")));
         }
-        target::check_in_place(&[&args.input], file, everywhere)?;
+        target::check_place(&[&args.input], file, everywhere)?;
     }
     Ok(())
-}
-
-pub(crate) fn has_extension(file: &Path, extension: &str) -> bool {
-    file.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
 }
 
 fn say(study: &Study, report: &mut Report) {

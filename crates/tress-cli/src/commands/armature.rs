@@ -40,11 +40,7 @@ pub(crate) struct ArmatureArgs {
 }
 
 pub(crate) fn run(args: &ArmatureArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    if args.output.extension().is_none_or(|extension| extension != "ron") {
-        let file = args.output.display();
-        return Err(Failure::Usage(format!("{file}: poses are written as .ron")));
-    }
-    target::check_in_place(&[&args.input], &args.output, everywhere)?;
+    target::check_kind(&[&args.input], &args.output, ("poses are", "ron"), everywhere)?;
     let progress = Progress::new(everywhere);
     let model = source::read(&args.input, &progress)?;
     let curved = Curved::new(model, &args.fit.options(), &progress)?;

@@ -21,8 +21,7 @@ use crate::args::{Cli, Everywhere};
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::report::{Report, count, short, spread};
-
-use super::fit::as_json;
+use crate::source::fit_as_json;
 
 /// Wisps of coily hair on a patch of scalp, in centimetres; made by `cargo xtask fixtures`.
 const PATCH: &[u8] = include_bytes!("../../../../fixtures/patch.hair");
@@ -43,6 +42,7 @@ const DRAWN: f64 = 0.5;
 /// (before.png, after.png, before-after.png, sculpted.png, radius.png), what the groom is like
 /// (analysis.html) and a report (report.md).
 #[derive(Args, Debug)]
+#[command(after_help = "Example: tress demo tour")]
 pub(crate) struct DemoArgs {
     /// Folder to leave everything in; made if it is not there
     #[arg(default_value = "tress-demo")]
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &DemoArgs, everywhere: &Everywhere) -> Result<Report, Fa
     report.set("output", dir);
     report.set("strands", tour.before.strands().len());
     report.set("points", tour.before.strands().points().len());
-    report.set("fit", as_json(&tour.fit));
+    report.set("fit", fit_as_json(&tour.fit));
     report.set("summary", tour.measures);
     report.set("ruffle", tour.ruffle);
     for line in tour.report().lines().filter(|line| line.starts_with("- ")) {
@@ -80,8 +80,10 @@ pub(crate) fn run(args: &DemoArgs, everywhere: &Everywhere) -> Result<Report, Fa
 /// `tress analyze` on the groom that was left.
 fn analyze(dir: &Path, everywhere: &Everywhere) -> Result<(), Failure> {
     let (groom, page) = (dir.join("patch.hair"), dir.join("analysis.html"));
-    let line = ["tress", "analyze", "--unit", "cm", "--up", "y", "--html"].map(OsString::from);
-    let cli = Cli::parse_from(line.into_iter().chain([page.into(), groom.into()]));
+    let mut html = OsString::from("--html=");
+    html.push(page);
+    let line = ["tress", "analyze", "--unit", "cm", "--up", "y"].map(OsString::from);
+    let cli = Cli::parse_from(line.into_iter().chain([html, "--".into(), groom.into()]));
     super::run(&cli.command, everywhere).map(drop)
 }
 

@@ -12,9 +12,8 @@ use crate::failure::Failure;
 use crate::options::SpaceArgs;
 use crate::progress::Progress;
 use crate::report::{Report, count, short};
-use crate::target;
+use crate::target::{self, has_extension};
 
-use super::analyze::has_extension;
 use super::analyze::study::Study;
 use super::render::{ViewArg, view};
 
@@ -52,7 +51,7 @@ pub(crate) fn run(args: &DiffArgs, everywhere: &Everywhere) -> Result<Report, Fa
             let file = file.display();
             return Err(Failure::Usage(format!("{file}: this is written as .{extension}")));
         }
-        target::check_in_place(&[&args.a, &args.b], file, everywhere)?;
+        target::check_place(&[&args.a, &args.b], file, everywhere)?;
     }
     let progress = Progress::new(everywhere);
     let mut report = Report::default();

@@ -12,6 +12,7 @@ use clap::{Args, Subcommand};
 
 use crate::args::Everywhere;
 use crate::failure::Failure;
+use crate::options::FormatArgs;
 use crate::report::Report;
 
 /// Guides and operators to strands, and strands to guides and operators
@@ -19,6 +20,11 @@ use crate::report::Report;
 /// A procedural groom is a .ron file that people edit, with a .safetensors file beside it that
 /// holds guides, roots and random numbers.
 #[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  tress groom new guides.usdc groom.ron --scalp head.obj --count 30000
+  tress groom fit captured.data groom.ron --operators scale,clump,curl,frizz --guides 300
+  tress groom edit groom.ron tighter.ron --set curl.radius=0.4
+  tress groom build tighter.ron strands.usdc")]
 pub(crate) struct GroomArgs {
     #[command(subcommand)]
     command: GroomCommand,
@@ -35,6 +41,14 @@ impl GroomArgs {
                 let others = [&args.checkpoint, &args.report].into_iter().flatten();
                 std::iter::once(&args.output).chain(others).map(PathBuf::as_path).collect()
             }
+        }
+    }
+
+    /// Choices of formats, where the command writes strands.
+    pub(super) fn format(&self) -> Option<&FormatArgs> {
+        match &self.command {
+            GroomCommand::Build(args) => Some(&args.format),
+            GroomCommand::New(_) | GroomCommand::Edit(_) | GroomCommand::Fit(_) => None,
         }
     }
 }

@@ -1,6 +1,5 @@
 //! `tress grow`: from guides to a head of coils.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -10,7 +9,6 @@ use tress::grow::{
     Assignment, Coils, GrowOptions, GrowReport, Plan, SkipUnit, assign, preset, preset_names,
     read_groups,
 };
-use tress::io::Model;
 
 use crate::args::Everywhere;
 use crate::failure::Failure;
@@ -19,7 +17,6 @@ use crate::progress::Progress;
 use crate::report::{Report, count};
 use crate::{source, target};
 
-use super::render::polylines;
 use super::scatter::scattered;
 use super::spectra;
 
@@ -126,16 +123,16 @@ pub(crate) fn run(args: &GrowArgs, everywhere: &Everywhere) -> Result<Report, Fa
         .chain([&args.roots, &args.scalp].into_iter().flatten())
         .map(PathBuf::as_path)
         .collect();
-    target::check(&inputs, &args.output, everywhere)?;
+    target::check_polylines(&inputs, &args.output, everywhere)?;
     let options = options(args)?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("guides", &args.guides);
-    let guides = polylines(source::read(&args.guides, &progress)?, &progress)?;
+    let guides = source::polylines(&args.guides, &progress)?;
     let roots = roots(args, args.roots.as_deref(), everywhere, &progress)?;
     // On a sequence, hairs are planned on its first frame.
     let first_guides = match everywhere.frame.first(&args.guides) {
-        Some(first) => Some(polylines(source::read(first, &progress)?, &progress)?),
+        Some(first) => Some(source::polylines(first, &progress)?),
         None => None,
     };
     let first_roots = match args.roots.as_deref().and_then(|r| everywhere.frame.first(r)) {
@@ -164,11 +161,7 @@ pub(crate) fn run(args: &GrowArgs, everywhere: &Everywhere) -> Result<Report, Fa
 fn options(args: &GrowArgs) -> Result<GrowOptions, Failure> {
     let mut options = match (&args.preset, &args.options) {
         (Some(name), _) => preset(name).unwrap_or_default(),
-        (None, Some(path)) => {
-            let failed = |why: String| Failure::Failed(format!("{}: {why}", path.display()));
-            let text = fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
-            ron::from_str(&text).map_err(|error| failed(error.to_string()))?
-        }
+        (None, Some(path)) => source::ron(path)?,
         (None, None) => GrowOptions::default(),
     };
     let over = &args.over;
@@ -194,20 +187,12 @@ fn roots(
     progress: &Progress,
 ) -> Result<Vec<DVec3>, Failure> {
     match (file, &args.scalp, args.count) {
-        (Some(file), _, _) => Ok(match source::read(file, progress)? {
-            Model::Polylines(groom) => first_points(groom.strands()),
-            Model::Helices(helices) => helices.roots().iter().map(|root| root.position).collect(),
-        }),
+        (Some(file), _, _) => source::roots(file, progress),
         (None, Some(mesh), Some(count)) => scattered(mesh, count, everywhere.seed, progress),
         _ => {
             Err(Failure::Usage("say where hairs grow: --roots FILE, or --scalp and --count".into()))
         }
     }
-}
-
-/// The first point of each strand; a strand without points grows nowhere.
-fn first_points(strands: &Strands<DVec3>) -> Vec<DVec3> {
-    strands.iter().map(|points| points.first().copied().unwrap_or(DVec3::NAN)).collect()
 }
 
 fn assigned(
@@ -218,11 +203,10 @@ fn assigned(
     seed: u64,
 ) -> Result<Vec<u32>, Failure> {
     let Some(path) = &args.groups else {
-        return Ok(assign(roots, &first_points(guides), options.assignment, seed)?);
+        return Ok(assign(roots, &source::first_points(guides), options.assignment, seed)?);
     };
-    let failed = |why: String| Failure::Failed(format!("{}: {why}", path.display()));
-    let text = fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
-    read_groups(&text, guides.len(), roots.len()).map_err(|error| failed(error.to_string()))
+    read_groups(&source::text(path)?, guides.len(), roots.len())
+        .map_err(|error| Failure::Failed(format!("{}: {error}", path.display())))
 }
 
 fn coils(args: &GrowArgs, progress: &Progress) -> Result<Coils, Failure> {

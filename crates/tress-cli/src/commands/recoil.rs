@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::options::RoadArgs;
 use crate::progress::Progress;
 use crate::report::{Report, count, spread};
-use crate::source::{self, Curved};
+use crate::source::Curved;
 use crate::target;
 
 /// Tighter or looser, wider or narrower coils
@@ -54,12 +54,10 @@ pub(crate) enum KeepArg {
 }
 
 pub(crate) fn run(args: &RecoilArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    target::check(&[&args.input], &args.output, everywhere)?;
+    target::check_edited(&args.input, &args.output, &args.road, everywhere)?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
-    report.set("input", &args.input);
-    let model = source::read(&args.input, &progress)?;
-    let mut curved = Curved::new(model, &args.road.fit.options(), &progress)?;
+    let mut curved = Curved::read(&args.input, &args.road.fit, &progress, &mut report)?;
     progress.stage("recoiling");
     let keep = match args.keep {
         KeepArg::Length => RecoilKeep::Length,

@@ -19,6 +19,7 @@ use crate::report::{Report, count};
 use crate::source::{self, Curved};
 use crate::target;
 
+use super::analyze::pictures::scale_of;
 use super::convert::in_space;
 
 /// Draw a picture of a groom
@@ -38,7 +39,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, default_value = "1600", value_name = "PIXELS", value_parser = parse_size)]
     pub(crate) size: (u32, u32),
     /// Colour strands by a quantity: radius, turns, length, handedness, curvature, twist,
-    /// frequency, pitch, beta, or the name of an attribute
+    /// frequency, pitch, beta, beta-fourier, or the name of an attribute
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) color_by: Option<String>,
     /// Hair diameter, in the groom's unit [default: the groom's own, or one that suits its size]
@@ -65,11 +66,7 @@ pub(crate) enum ViewArg {
 }
 
 pub(crate) fn run(args: &RenderArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    if args.output.extension().is_none_or(|extension| extension != "png") {
-        let file = args.output.display();
-        return Err(Failure::Usage(format!("{file}: pictures are written as .png")));
-    }
-    target::check_in_place(&[&args.input], &args.output, everywhere)?;
+    target::check_kind(&[&args.input], &args.output, ("pictures are", "png"), everywhere)?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.input);
@@ -118,16 +115,18 @@ impl Subject {
             helices @ Model::Helices(_) => helices,
         };
         match &args.color_by {
-            None => Ok(Self { groom: polylines(model, progress)?, values: None }),
+            None => Ok(Self { groom: source::into_polylines(model, progress)?, values: None }),
             Some(name) => match name.parse::<Quantity>() {
                 Ok(quantity) => Self::by_quantity(model, quantity, progress),
                 Err(unknown) => {
-                    let groom = polylines(model, progress)?;
+                    let groom = source::into_polylines(model, progress)?;
                     let Some(numbers) = attribute(&groom, name) else {
                         let message = format!("{unknown}, and no attribute of the groom is either");
                         return Err(Failure::Failed(message));
                     };
-                    let scale = scale(&numbers, name, String::new(), ColorMap::Viridis);
+                    let (Numbers::Strands(values) | Numbers::Points(values)) = &numbers;
+                    let range = Scale::without_strays(values.iter().copied(), 0.01);
+                    let scale = Scale { title: name.clone(), map: ColorMap::Viridis, ..range };
                     Ok(Self { groom, values: Some((numbers, scale)) })
                 }
             },
@@ -154,17 +153,8 @@ impl Subject {
             }
             QuantityValues::Joints(values) => sample_with(curved, values)?,
         };
-        let map = match of {
-            Quantity::Handedness => ColorMap::PurpleGreen,
-            Quantity::Twist => ColorMap::BlueRed,
-            _ => ColorMap::Viridis,
-        };
-        let mut scale = scale(&numbers, of.title(), unit(of, groom.unit), map);
-        if of == Quantity::Handedness {
-            (scale.min, scale.max) = (-1.0, 1.0);
-        } else if of.is_signed() {
-            scale = scale.symmetric();
-        }
+        let (Numbers::Strands(values) | Numbers::Points(values)) = &numbers;
+        let scale = scale_of(of, values, unit(of, groom.unit));
         Ok(Self { groom, values: Some((numbers, scale)) })
     }
 
@@ -181,18 +171,6 @@ impl Subject {
             Some((Numbers::Points(values), scale)) => Coloring::Points(values, scale),
         };
         Ok(render(&self.groom, &coloring, &options)?)
-    }
-}
-
-/// The polylines of a model; super-helices are sampled.
-pub(crate) fn polylines(model: Model, progress: &Progress) -> Result<Groom, Failure> {
-    match model {
-        Model::Polylines(groom) => Ok(groom),
-        Model::Helices(helices) => {
-            progress.stage("sampling");
-            let curved = Curved { helices, counts: None, fit: None };
-            curved.sample(&SamplingArgs::default())
-        }
     }
 }
 
@@ -219,13 +197,6 @@ fn attribute(groom: &Groom, name: &str) -> Option<Numbers> {
         (None, Some(column)) => Some(Numbers::Points(column.first_components().collect())),
         (None, None) => None,
     }
-}
-
-/// A scale that one stray in a hundred at either end does not stretch.
-fn scale(numbers: &Numbers, title: &str, unit: String, map: ColorMap) -> Scale {
-    let (Numbers::Strands(values) | Numbers::Points(values)) = numbers;
-    let range = Scale::without_strays(values.iter().copied(), 0.01);
-    Scale { title: title.into(), unit, map, ..range }
 }
 
 /// The unit of a quantity in words.

@@ -13,10 +13,8 @@ use crate::failure::Failure;
 use crate::options::{RoadArgs, parse_grouping};
 use crate::progress::Progress;
 use crate::report::{Report, count};
-use crate::source::{self, Curved};
+use crate::source::Curved;
 use crate::target;
-
-use super::fit::say_fit;
 
 /// Exchange elements between strands of a group: frizz made of the groom's own curls
 ///
@@ -73,14 +71,10 @@ impl FromStr for Keep {
 }
 
 pub(crate) fn run(args: &RuffleArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    target::check(&[&args.input], &args.output, everywhere)?;
+    target::check_edited(&args.input, &args.output, &args.road, everywhere)?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
-    report.set("input", &args.input);
-    let model = source::read(&args.input, &progress)?;
-    let mut curved = Curved::new(model, &args.road.fit.options(), &progress)?;
-    say_fit(&curved, &mut report);
-
+    let mut curved = Curved::read(&args.input, &args.road.fit, &progress, &mut report)?;
     progress.stage("ruffling");
     let groups = curved.groups(&args.groups, &args.input, &args.road.fit, everywhere, &progress)?;
     let keep = elements_kept(&curved.helices, args.keep);

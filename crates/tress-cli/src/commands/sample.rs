@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tress::fit::FitOptions;
-use tress::io::Format;
 
 use crate::args::Everywhere;
 use crate::failure::Failure;
@@ -36,11 +35,7 @@ pub(crate) struct SampleCommandArgs {
 }
 
 pub(crate) fn run(args: &SampleCommandArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    if target::check(&[&args.input], &args.output, everywhere)? == Format::Tress {
-        let file = args.output.display();
-        let message = format!("{file}: a .tress file holds super-helices; name a polyline format");
-        return Err(Failure::Usage(message));
-    }
+    target::check_polylines(&[&args.input], &args.output, everywhere)?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.input);

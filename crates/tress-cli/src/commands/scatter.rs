@@ -34,7 +34,7 @@ pub(crate) struct ScatterArgs {
 }
 
 pub(crate) fn run(args: &ScatterArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    target::check(&[&args.mesh], &args.output, everywhere)?;
+    target::check_polylines(&[&args.mesh], &args.output, everywhere)?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.mesh);

@@ -1,8 +1,7 @@
 //! `tress sculpt`: strands moved to where a pose puts them.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -57,14 +56,12 @@ pub(crate) enum SolverArg {
 }
 
 pub(crate) fn run(args: &SculptArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    target::check(&[&args.input], &args.output, everywhere)?;
-    let pose = read_pose(&args.pose)?;
+    target::check_edited(&args.input, &args.output, &args.road, everywhere)?;
+    let pose: Pose = source::ron(&args.pose)?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
-    report.set("input", &args.input);
     report.set("pose", &args.pose);
-    let model = source::read(&args.input, &progress)?;
-    let mut curved = Curved::new(model, &args.road.fit.options(), &progress)?;
+    let mut curved = Curved::read(&args.input, &args.road.fit, &progress, &mut report)?;
     progress.stage("posing");
     let controls = apply_pose(&curved.helices, &pose)
         .map_err(|error| Failure::Failed(format!("{}: {error}", args.pose.display())))?;
@@ -73,16 +70,6 @@ pub(crate) fn run(args: &SculptArgs, everywhere: &Everywhere) -> Result<Report, 
     say_sculpted(&sculpted, &mut report);
     target::write_edited(&args.output, curved, &args.road, everywhere, &progress, &mut report)?;
     Ok(report)
-}
-
-fn read_pose(path: &Path) -> Result<Pose, Failure> {
-    let file = path.display();
-    let text =
-        fs::read_to_string(path).map_err(|error| Failure::Failed(format!("{file}: {error}")))?;
-    ron::from_str(&text).map_err(|error| {
-        let (line, column) = (error.span.start.line, error.span.start.col);
-        Failure::Failed(format!("{file}: line {line}, column {column}: {}", error.code))
-    })
 }
 
 fn options(args: &SculptArgs) -> SculptOptions {

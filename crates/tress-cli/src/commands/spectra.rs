@@ -14,8 +14,6 @@ use crate::progress::Progress;
 use crate::report::{Report, count, short};
 use crate::{source, target};
 
-use super::render::polylines;
-
 /// Extension of libraries.
 const LIBRARY: &str = "tress-spectra";
 
@@ -42,18 +40,14 @@ pub(crate) fn run(args: &SpectraArgs, everywhere: &Everywhere) -> Result<Report,
     let Some((output, inputs)) = args.files.split_last() else {
         return Err(Failure::Usage("name the groom and the library to write".into()));
     };
-    if output.extension().is_none_or(|extension| extension != LIBRARY) {
-        let file = output.display();
-        return Err(Failure::Usage(format!("{file}: a library's name ends in .{LIBRARY}")));
-    }
     let paths: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
-    target::check_in_place(&paths, output, everywhere)?;
+    target::check_kind(&paths, output, ("libraries of coils are", LIBRARY), everywhere)?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("inputs", inputs);
     let spectra = match inputs {
         [groom] => {
-            let groom = polylines(source::read(groom, &progress)?, &progress)?;
+            let groom = source::polylines(groom, &progress)?;
             progress.stage("analysing");
             let spectra = Spectra::of(groom.strands());
             let straight = groom.strands().len() - spectra.len();

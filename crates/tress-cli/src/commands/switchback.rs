@@ -16,10 +16,8 @@ use crate::failure::Failure;
 use crate::options::{FormatArgs, RoadArgs, SamplingArgs, parse_grouping};
 use crate::progress::Progress;
 use crate::report::{Report, count, short};
-use crate::source::{self, Curved};
+use crate::source::Curved;
 use crate::target;
-
-use super::fit::say_fit;
 
 /// Switchbacks: places where a coil changes hands
 #[derive(Args, Debug)]
@@ -90,6 +88,12 @@ struct MakeArgs {
     /// Choices of formats
     #[command(flatten)]
     format: FormatArgs,
+}
+
+impl MakeArgs {
+    fn material(&self) -> Material {
+        Material { poisson_ratio: self.poisson_ratio, rest_twist: self.rest_twist }
+    }
 }
 
 /// How a switchback is found.
@@ -185,8 +189,7 @@ fn run_make(args: &MakeArgs, everywhere: &Everywhere) -> Result<Report, Failure>
 
 /// The strand, and what is to be said of it.
 fn made(args: &MakeArgs, report: &mut Report) -> Result<(Frame, Vec<Element>), Failure> {
-    let material = Material { poisson_ratio: args.poisson_ratio, rest_twist: args.rest_twist };
-    let v = args.frequency;
+    let (v, material) = (args.frequency, args.material());
     match args.method {
         Method::Exact => shape(&Switchback::new(v, &material)?, args, report),
         Method::Double => shape(&DoubleSwitchback::new(v, &material)?, args, report),
@@ -207,8 +210,7 @@ fn shape(
     args: &MakeArgs,
     report: &mut Report,
 ) -> Result<(Frame, Vec<Element>), Failure> {
-    let material = Material { poisson_ratio: args.poisson_ratio, rest_twist: args.rest_twist };
-    let coil = Coil::new(args.frequency, &material)?;
+    let coil = Coil::new(args.frequency, &args.material())?;
     // The made strand's coil has the radius asked for, the rod's is kappa1 / lambda^2.
     let unit = args.radius * coil.turning() * coil.turning() / coil.curvature.x;
     let room = 2.0 * profile.half_width(InsertOptions::default().share) * unit;
@@ -226,13 +228,10 @@ const ARCS_PER_TURN: usize = 32;
 const MOST_TURNS: f64 = 10_000.0;
 
 fn run_insert(args: &InsertArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    target::check(&[&args.input], &args.output, everywhere)?;
+    target::check_edited(&args.input, &args.output, &args.road, everywhere)?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
-    report.set("input", &args.input);
-    let model = source::read(&args.input, &progress)?;
-    let mut curved = Curved::new(model, &args.road.fit.options(), &progress)?;
-    say_fit(&curved, &mut report);
+    let mut curved = Curved::read(&args.input, &args.road.fit, &progress, &mut report)?;
     progress.stage("putting switchbacks in");
     let groups = curved.groups(&args.groups, &args.input, &args.road.fit, everywhere, &progress)?;
     let placing = match args.density {

@@ -94,6 +94,8 @@ fn wrong_wishes_are_refused() {
     let line = "helicoid fill arcs.ron full.obj --roots arcs.obj --exponent -1";
     assert!(bench.fails(line, 1).contains("exponent"));
     assert!(bench.fails("helicoid wisp arcs.ron w.obj --radius -1", 1).contains("radius"));
+    let error = bench.fails("helicoid wisp arcs.ron w.obj --hairs 0", 1);
+    assert!(error.contains("0 hairs a wisp"), "{error}");
     fs::write(bench.path("bad.ron"), "(roots: [], pieces: 3)").expect("room on the disk");
     assert!(bench.fails("helicoid trace bad.ron bad.obj", 1).contains("bad.ron"));
 }

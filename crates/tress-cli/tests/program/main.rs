@@ -118,17 +118,34 @@ fn strands_that_are_no_curves_pass_through_and_are_counted() {
 fn mistakes_are_told_in_one_line_and_leave_files_alone() {
     let bench = Bench::new();
     fs::create_dir(bench.path("folder.obj")).expect("a folder");
-    fs::write(bench.path("broken.data"), [9, 0, 0, 0, 1]).expect("a file");
+    fs::write(bench.path("broken.data"), [9, 0, 0, 0, 0xff]).expect("a file");
     fs::write(bench.path("old.hair"), "old").expect("a file");
     fs::write(bench.path("broken.ron"), "(joints: [])").expect("a file");
     fs::write(bench.path("empty.ron"), "()").expect("a file");
+    fs::write(bench.path("none.obj"), "").expect("a file");
     for (line, status, word) in [
         ("info nowhere.obj", 1, "nowhere.obj: no such file"),
         ("info folder.obj", 1, "is a directory"),
         ("info groom.docx", 1, "unknown extension .docx"),
         ("info broken.data", 1, "broken.data: byte"),
         ("convert groom.obj groom.obj", 1, "--in-place"),
-        ("convert groom.obj nowhere/out.hair", 1, "nowhere/out.hair"),
+        ("convert groom.obj nowhere/out.hair", 1, "nowhere/out.hair: there is no folder nowhere"),
+        (
+            "ruffle nowhere.obj out.obj --target unreal",
+            2,
+            "out.obj: --target unreal writes an .abc",
+        ),
+        ("ruffle nowhere.obj out.tress --points 9", 2, "a .tress file has none"),
+        ("scatter broken.data out.obj --count 9", 1, "meshes are read from .obj and .ply"),
+        ("helicoid trace broken.data out.obj", 1, "broken.data: expected text, found bytes"),
+        ("helicoid trace empty.ron out.obj", 1, "empty.ron: line 1, column"),
+        ("groom fit groom.obj out.ron --options nowhere.ron", 1, "nowhere.ron: no such file"),
+        ("groom fit groom.obj out.obj", 2, "procedural grooms are written to a .ron file"),
+        ("groom fit groom.obj out.ron --report out.txt", 2, "written to a .html file"),
+        ("groom build empty.ron out.tress", 2, "a .tress file holds super-helices"),
+        ("render groom.obj out.jpg", 2, "pictures are written to a .png file"),
+        ("groom fit groom.obj nowhere/out.ron", 1, "there is no folder nowhere"),
+        ("groom new none.obj out.ron --roots groom.obj", 1, "none.obj: no strand is a guide"),
         ("convert groom.obj out.tfx", 1, "--points"),
         ("ruffle groom.obj out.obj --groups wisp", 1, "no attribute of strands is called"),
         ("ruffle groom.obj out.obj --groups clusters:21", 1, "21 clusters"),

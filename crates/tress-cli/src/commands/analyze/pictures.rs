@@ -46,19 +46,24 @@ fn values_and_scale(study: &Study, of: Quantity) -> (QuantityValues, Scale) {
     let mut shown = study.analysis.values(of);
     let (QuantityValues::Strands(values) | QuantityValues::Joints(values)) = &mut shown;
     values.iter_mut().for_each(|value| *value *= unit.factor);
+    let scale = scale_of(of, values, unit.name);
+    (shown, scale)
+}
+
+/// What shows the values of a quantity; one stray in a hundred at either end does not stretch it.
+pub(crate) fn scale_of(of: Quantity, values: &[f64], unit: String) -> Scale {
     let map = match of {
         Quantity::Handedness | Quantity::Beta | Quantity::BetaFourier => ColorMap::PurpleGreen,
         Quantity::Twist | Quantity::Pitch => ColorMap::BlueRed,
         _ => ColorMap::Viridis,
     };
     let range = Scale::without_strays(values.iter().copied(), 0.01);
-    let mut scale = Scale { title: of.title().into(), unit: unit.name, map, ..range };
-    if map == ColorMap::PurpleGreen {
-        (scale.min, scale.max) = (-1.0, 1.0);
-    } else if of.is_signed() {
-        scale = scale.symmetric();
+    let scale = Scale { title: of.title().into(), unit, map, ..range };
+    match map {
+        ColorMap::PurpleGreen => Scale { min: -1.0, max: 1.0, ..scale },
+        _ if of.is_signed() => scale.symmetric(),
+        _ => scale,
     }
-    (shown, scale)
 }
 
 /// Pictures by each of the quantities on one sheet, as the bytes of a PNG file.

@@ -9,7 +9,6 @@ use tress::geometry::Groom;
 
 use crate::args::Everywhere;
 use crate::commands::convert::in_space;
-use crate::commands::render::polylines;
 use crate::failure::Failure;
 use crate::options::SpaceArgs;
 use crate::progress::Progress;
@@ -35,7 +34,7 @@ impl Study {
         everywhere: &Everywhere,
         progress: &Progress,
     ) -> Result<Self, Failure> {
-        let groom = polylines(source::read(input, progress)?, progress)?;
+        let groom = source::polylines(input, progress)?;
         let groom = in_space(source::share(groom, everywhere), space);
         progress.stage("analysing");
         let analysis = Analysis::of(&groom);

@@ -30,7 +30,7 @@ pub(crate) struct BuildArgs {
 }
 
 pub(super) fn run(args: &BuildArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    target::check(&[&args.groom], &args.output, everywhere)?;
+    target::check_polylines(&[&args.groom], &args.output, everywhere)?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.groom);
@@ -42,7 +42,7 @@ pub(super) fn run(args: &BuildArgs, everywhere: &Everywhere) -> Result<Report, F
     report.set("guides", groom.guides.len());
     report.set("operators", &names);
     report.say("guides", count(groom.guides.len()));
-    report.say("operators", names.join(", "));
+    report.say("operators", if names.is_empty() { "none".into() } else { names.join(", ") });
     target::write(&args.output, &strands, &args.format, &progress, &mut report)?;
     Ok(report)
 }

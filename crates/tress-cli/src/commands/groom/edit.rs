@@ -67,14 +67,15 @@ impl FromStr for Setting {
 }
 
 pub(super) fn run(args: &EditArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    target::check_in_place(&[&args.groom], &args.output, everywhere)?;
+    let what = ("procedural grooms are", "ron");
+    target::check_kind(&[&args.groom], &args.output, what, everywhere)?;
     let mut report = Report::default();
     let mut groom = ProceduralGroom::read(&args.groom)?;
     for setting in &args.set {
         let before = change(&mut groom, setting)?;
         let name = format!("{}.{}", setting.operator, setting.parameter);
         report.set(&name, setting.value);
-        report.say(&name, format!(" {} was {}", short(setting.value), short(before)));
+        report.say(&name, format!("{}, was {}", short(setting.value), short(before)));
     }
     if let Some(mesh) = &args.scalp {
         super::new::over(mesh, &mut groom, args.neighbors, args.sigma)?;
@@ -92,7 +93,7 @@ pub(super) fn run(args: &EditArgs, everywhere: &Everywhere) -> Result<Report, Fa
 /// Sets a parameter; gives its value before.
 fn change(groom: &mut ProceduralGroom, setting: &Setting) -> Result<f64, Failure> {
     let names: Vec<&str> = groom.chain.operators.iter().map(|o| o.name()).collect();
-    let there = names.join(", ");
+    let there = if names.is_empty() { "it has none".into() } else { names.join(", ") };
     let operator = groom.chain.operators.iter_mut().find(|o| o.name() == setting.operator);
     let operator = operator.ok_or_else(|| {
         Failure::Failed(format!("no operator {:?} in this groom: {there}", setting.operator))

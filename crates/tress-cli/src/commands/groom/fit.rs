@@ -1,11 +1,9 @@
 //! `tress groom fit`: a procedural groom found for strands that have none.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tress::geometry::Groom;
-use tress::io::Model;
 use tress::procedural::fit::{Fitter, Stage, StageOptions};
 use tress::procedural::{
     Bend, Chain, Clump, Convention, Curl, Frizz, Operator, ProceduralGroom, Scale,
@@ -81,18 +79,15 @@ fn parse_operator(name: &str) -> Result<Operator, String> {
 }
 
 pub(super) fn run(args: &GroomFitArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    target::check_in_place(&[&args.target], &args.output, everywhere)?;
+    let what = ("procedural grooms are", "ron");
+    target::check_kind(&[&args.target], &args.output, what, everywhere)?;
+    if let Some(report) = &args.report {
+        target::check_kind(&[&args.target], report, ("reports are", "html"), everywhere)?;
+    }
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.target);
-    let target = match source::read(&args.target, &progress)? {
-        Model::Polylines(groom) => groom,
-        Model::Helices(_) => {
-            let file = args.target.display();
-            let message = format!("{file} holds super-helices: sample it first");
-            return Err(Failure::Failed(message));
-        }
-    };
+    let target = source::polylines(&args.target, &progress)?;
     let options = options(args, everywhere)?;
     let convention =
         if args.published_program { Convention::PublishedProgram } else { Convention::Paper };
@@ -128,10 +123,7 @@ pub(super) fn run(args: &GroomFitArgs, everywhere: &Everywhere) -> Result<Report
 fn options(args: &GroomFitArgs, everywhere: &Everywhere) -> Result<StageOptions, Failure> {
     let mut options = match &args.options {
         None => StageOptions::default(),
-        Some(path) => {
-            let text = fs::read_to_string(path).map_err(|error| said(path, &error.to_string()))?;
-            ron::from_str(&text).map_err(|error| said(path, &error.to_string()))?
-        }
+        Some(path) => source::ron(path)?,
     };
     options.guides = args.guides.unwrap_or(options.guides);
     options.operator_guides = args.operator_guides.or(options.operator_guides);
@@ -139,10 +131,6 @@ fn options(args: &GroomFitArgs, everywhere: &Everywhere) -> Result<StageOptions,
     options.own_weights &= !args.by_distance;
     options.seed = everywhere.seed;
     Ok(options)
-}
-
-fn said(path: &Path, message: &str) -> Failure {
-    Failure::Failed(format!("{}: {message}", path.display()))
 }
 
 /// Steps that a stage's bar shows.

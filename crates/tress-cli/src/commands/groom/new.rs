@@ -3,9 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use tress::geometry::glam::DVec3;
 use tress::geometry::{Column, Groom, names};
-use tress::io::Model;
 use tress::procedural::{EvenStrands, ProceduralGroom, Roots, Surface};
 
 use crate::args::Everywhere;
@@ -48,11 +46,15 @@ pub(crate) struct NewArgs {
 }
 
 pub(super) fn run(args: &NewArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    target::check_in_place(&[&args.guides], &args.output, everywhere)?;
+    let what = ("procedural grooms are", "ron");
+    target::check_kind(&[&args.guides], &args.output, what, everywhere)?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.guides);
-    let given = polylines(&args.guides, &progress)?;
+    let given = source::polylines(&args.guides, &progress)?;
+    if given.strands().is_empty() {
+        return Err(Failure::Failed(format!("{}: no strand is a guide", args.guides.display())));
+    }
     let (guides, kept) = even(args, &given)?;
     let roots = roots(args, everywhere, &progress)?;
     if roots.len() < guides.len() {
@@ -80,16 +82,6 @@ pub(super) fn run(args: &NewArgs, everywhere: &Everywhere) -> Result<Report, Fai
     Ok(report)
 }
 
-fn polylines(path: &std::path::Path, progress: &Progress) -> Result<Groom, Failure> {
-    match source::read(path, progress)? {
-        Model::Polylines(groom) => Ok(groom),
-        Model::Helices(_) => {
-            let message = format!("{} holds super-helices: sample it first", path.display());
-            Err(Failure::Failed(message))
-        }
-    }
-}
-
 /// The guides with as many points each, and which of the file they are.
 fn even(args: &NewArgs, given: &Groom) -> Result<(EvenStrands, Vec<usize>), Failure> {
     let file = args.guides.display();
@@ -111,10 +103,8 @@ fn roots(args: &NewArgs, everywhere: &Everywhere, progress: &Progress) -> Result
             Ok(Roots { positions, uv: None })
         }
         (Some(file), ..) => {
-            let groom = polylines(file, progress)?;
-            let first = |points: &[DVec3]| points.first().copied().unwrap_or(DVec3::NAN);
-            let positions = groom.strands().iter().map(first).collect();
-            Ok(Roots { positions, uv: uv(&groom) })
+            let groom = source::polylines(file, progress)?;
+            Ok(Roots { positions: source::first_points(groom.strands()), uv: uv(&groom) })
         }
         _ => Err(Failure::Usage("say where hair grows: --roots, or --scalp and --count".into())),
     }

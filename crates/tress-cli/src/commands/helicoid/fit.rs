@@ -10,9 +10,8 @@ use crate::args::Everywhere;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::report::{Report, count, spread};
-use crate::source;
+use crate::{source, target};
 
-use super::super::render::polylines;
 use super::ron_file;
 
 /// Fit chains of helicoids to the strands of a groom
@@ -69,13 +68,14 @@ impl HelicoidFitArgs {
 }
 
 pub(super) fn run(args: &HelicoidFitArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    ron_file::check(&[&args.input], &args.output, everywhere)?;
+    let what = ("helicoids are", "ron");
+    target::check_kind(&[&args.input], &args.output, what, everywhere)?;
     let options = args.options();
     options.validate()?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.input);
-    let groom = polylines(source::read(&args.input, &progress)?, &progress)?;
+    let groom = source::polylines(&args.input, &progress)?;
     let groom = source::share(groom, everywhere);
     let strands = groom.strands().len();
     progress.stage_of(format!("fitting {} strands", count(strands)), strands);

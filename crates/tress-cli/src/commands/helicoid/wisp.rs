@@ -55,7 +55,7 @@ pub(crate) struct WispArgs {
 }
 
 pub(super) fn run(args: &WispArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
-    target::check(&[&args.input], &args.output, everywhere)?;
+    target::check_polylines(&[&args.input], &args.output, everywhere)?;
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
     report.set("input", &args.input);
