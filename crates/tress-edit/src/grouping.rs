@@ -91,6 +91,9 @@ fn number_values(column: &Column) -> Vec<u32> {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+    use tress_geometry::{Element, Frame, Strands};
+
     use super::*;
 
     #[test]
@@ -98,5 +101,23 @@ mod tests {
         assert_eq!(number_values(&Column::Int(vec![7, -1, 7])), [0, 1, 0]);
         let pairs = Column::Float { components: 2, values: vec![1.0, 2.0, 1.0, 3.0, 1.0, 2.0] };
         assert_eq!(number_values(&pairs), [0, 1, 0]);
+    }
+
+    #[test]
+    fn strands_are_grouped_by_what_they_have_and_where_they_are() {
+        let straight = Element { length: 1.0, ..Element::default() };
+        let at = |x: f64| Frame { position: DVec3::X * x, ..Frame::IDENTITY };
+        let roots = [0.0, 0.1, 9.0, 0.2, 9.1].map(at).to_vec();
+        let elements = Strands::from_counts([1; 5], vec![straight; 5]).expect("five elements");
+        let mut groom = HelixGroom::new(roots, elements).expect("a root a strand");
+        let wisp = Column::Int(vec![4, 4, 7, 7, 4]);
+        groom.insert_strand_attribute("wisp", wisp).expect("a row a strand");
+        let by_wisp = groups(&groom, &Grouping::Attribute("wisp".into()), 0);
+        assert_eq!(by_wisp, Ok(vec![0, 0, 1, 1, 0]));
+        let near = groups(&groom, &Grouping::Clusters(2), 0).expect("more strands than clusters");
+        assert!(near[0] == near[1] && near[0] == near[3] && near[2] == near[4]);
+        assert_ne!(near[0], near[2]);
+        let error = groups(&groom, &Grouping::Attribute("curl".into()), 0).unwrap_err();
+        assert!(error.to_string().ends_with("there is: wisp"), "{error}");
     }
 }

@@ -1,4 +1,4 @@
-use tress_geometry::Strands;
+use tress_geometry::{Attributes, Kept, Strands};
 
 use super::*;
 
@@ -34,6 +34,41 @@ fn between_a_groom_and_its_rigid_motion_curvature_space_moves_rigidly() {
     let middle = blend(&a, &b, 0.5, BlendSpace::Curvature).expect("same counts");
     assert_eq!(middle.elements(), a.elements());
     assert!(middle.roots()[0].is_valid());
+}
+
+#[test]
+fn roots_move_straight_and_turn_the_short_way() {
+    // 200 degrees one way are 160 the other: a quarter of the way is 40 degrees back.
+    let degrees = |angle: f64| DMat3::from_rotation_z(angle.to_radians());
+    let to = Frame { position: 4.0 * DVec3::Y, axes: degrees(200.0) };
+    let (a, b) = (coil(0.5, 1.0, Frame::IDENTITY, 3), coil(0.5, 1.0, to, 3));
+    for (amount, angle) in [(0.25, -40.0), (0.5, -80.0), (2.0, -320.0), (-0.5, 80.0)] {
+        let root = blend(&a, &b, amount, BlendSpace::Curvature).expect("same counts").roots()[0];
+        let off = root.axes - degrees(angle);
+        assert!(off.to_cols_array().iter().all(|entry| entry.abs() < 1e-14), "{amount}");
+        assert_eq!(root.position, 4.0 * amount * DVec3::Y);
+    }
+}
+
+#[test]
+fn strands_kept_in_either_groom_stay_as_in_the_first() {
+    let coils = coil(0.5, 1.0, Frame::IDENTITY, 6).elements().points().to_vec();
+    let with_kept = |kept: u32, counts: [usize; 3], root: Frame| {
+        let elements = Strands::from_counts(counts, coils.clone()).expect("six elements");
+        let polylines = Strands::from_counts([1], vec![DVec3::ONE]).expect("one point");
+        let point_attributes = Attributes::new(1);
+        let kept = Kept { strands: vec![kept], polylines, point_attributes };
+        let tables = (Attributes::new(3), Attributes::new(9));
+        HelixGroom::with_attributes(vec![root; 3], elements, tables.0, tables.1, kept)
+            .expect("rows match")
+    };
+    // The first groom keeps strand 0, the other strand 1: only strand 2 has elements in both.
+    let (a, b) = (with_kept(0, [0, 3, 3], Frame::IDENTITY), with_kept(1, [3, 0, 3], turned()));
+    let middle = blend(&a, &b, 0.5, BlendSpace::Curvature).expect("kept strands need not match");
+    for i in 0..2 {
+        assert_eq!(middle.strand(i), a.strand(i), "strand {i}");
+    }
+    assert!(middle.roots()[2].position.distance(0.5 * turned().position) < 1e-15);
 }
 
 #[test]

@@ -61,6 +61,30 @@ fn the_strand_keeps_its_direction() {
 }
 
 #[test]
+fn the_axis_of_the_first_turn_stays_whatever_follows() {
+    // A little more than a turn, and then a coil of the other hand about another axis.
+    let first = vec![Element { length: 0.4, ..Element::coil(0.5, -0.8) }; 9];
+    assert!((1.0..1.2).contains(&first.iter().map(Element::turns).sum::<f64>()));
+    let rest = Element { curvature: DVec3::new(1.5, 2.0, -0.3), length: 0.4 };
+    let before = strand([first, vec![rest; 200]].concat());
+    let after = recoil(&before, &options(1.6, 0.7, RecoilKeep::Turns)).expect("good factors");
+    let axis = |groom: &HelixGroom| {
+        let strand = groom.strand(0);
+        (strand.root.axes * strand.elements[0].curvature).normalize()
+    };
+    assert!(axis(&before).distance(axis(&after)) < 1e-14);
+}
+
+#[test]
+fn a_planar_arc_that_advances_nowhere_keeps_its_turns() {
+    let arc = Element { curvature: 2.0 * DVec3::Z, length: 3.0 };
+    let options = options(1.5, 4.0, RecoilKeep::Advance);
+    let wider = recoil(&strand(vec![arc]), &options).expect("good factors").strand(0).elements[0];
+    assert!((wider.turns() - arc.turns()).abs() < 1e-15);
+    assert!((wider.radius() - 0.75).abs() < 1e-15);
+}
+
+#[test]
 fn there_and_back_is_where_it_was() {
     for keep in [RecoilKeep::Length, RecoilKeep::Turns, RecoilKeep::Advance] {
         let there = recoil(&coil(20), &options(2.0, 3.0, keep)).expect("good factors");

@@ -97,6 +97,16 @@ fn polylines_pass_through_and_give_nothing() {
 }
 
 #[test]
+fn groups_and_strands_without_company_are_counted() {
+    let groom = groom(&[4, 4, 4, 4]);
+    let (same, report) = ruffle(&groom, &[0, 3, 3, 5], &options(1.0, 0), 4).expect("options");
+    assert_eq!((report.groups, report.alone, report.candidates), (3, 2, 16));
+    // Who is alone gets its own elements, which is no replacement.
+    assert_eq!(same.strand(0).elements, groom.strand(0).elements);
+    assert!(report.replaced <= 8 && !report.unequal);
+}
+
+#[test]
 fn threads_do_not_change_the_result() {
     let groom = groom(&[40; 100]);
     let on = |threads| {
