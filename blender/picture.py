@@ -85,4 +85,7 @@ def main(folder):
     render(folder / "blender-ruffled.png")
 
 
-main(pathlib.Path(sys.argv[1]))
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    main(pathlib.Path(sys.argv[1]))
