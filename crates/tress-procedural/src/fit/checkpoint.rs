@@ -1,10 +1,12 @@
 //! A fit kept in a folder, to be taken up again.
 //!
 //! The folder holds the procedural groom so far and a record of which stage comes next, of all
-//! losses, and of what the fit is of: fingerprints of the target's points and of the options.
+//! losses, and of what the fit is of: fingerprints of the target's points, of the head's and of the
+//! options.
 
 use std::path::Path;
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use tress_geometry::Groom;
 
@@ -21,6 +23,8 @@ pub(super) struct State {
     pub(super) target: u64,
     /// Of the options and the operators to begin with.
     pub(super) options: u64,
+    /// Of the head's points, where one was given.
+    pub(super) head: Option<u64>,
     pub(super) stage: Stage,
     /// How often guides and parameters have been found.
     pub(super) round: usize,
@@ -29,11 +33,10 @@ pub(super) struct State {
 
 impl State {
     pub(super) fn new(targets: &EvenStrands, chain: &Chain, options: &StageOptions) -> Self {
-        let bytes: Vec<u8> =
-            targets.points().iter().flat_map(|x| x.to_array()).flat_map(f64::to_le_bytes).collect();
         Self {
-            target: fingerprint(&bytes),
+            target: fingerprint_of(targets.points()),
             options: fingerprint(format!("{options:?} {chain:?}").as_bytes()),
+            head: None,
             stage: Stage::Initialize,
             round: 0,
             history: Vec::new(),
@@ -53,6 +56,13 @@ impl State {
             Stage::Numbers | Stage::Done => Stage::Done,
         };
     }
+}
+
+/// A fingerprint of points.
+pub(super) fn fingerprint_of(points: &[DVec3]) -> u64 {
+    let bytes: Vec<u8> =
+        points.iter().flat_map(|x| x.to_array()).flat_map(f64::to_le_bytes).collect();
+    fingerprint(&bytes)
 }
 
 /// Names of a checkpoint's files in its folder.

@@ -3,7 +3,7 @@
 use tress_geometry::polyline::defect;
 use tress_geometry::{Column, Groom, Mesh, UpAxis, names};
 
-use super::checkpoint::State;
+use super::checkpoint::{State, fingerprint_of};
 use super::courses::courses;
 use super::guides::even_out;
 use super::weights::{fit_sigma, vertex_loss};
@@ -30,6 +30,17 @@ pub enum FitterError {
     /// A stage failed, by a loss that is not a number for one; the groom has the last good state.
     #[error(transparent)]
     Stage(#[from] StageError),
+    /// An operator that parameters cannot be found for: recoil, ruffle, switchback and skip.
+    #[error(
+        "{operator} {index} has no derivative and cannot be fitted: leave it out, and put it into \
+         the groom's file afterwards"
+    )]
+    Operator {
+        /// The operator's name.
+        operator: &'static str,
+        /// Which operator of the chain, from 0.
+        index: usize,
+    },
     /// The groom cannot be built.
     #[error(transparent)]
     Build(#[from] BuildError),
@@ -73,7 +84,8 @@ impl Fitter {
     ///
     /// # Errors
     ///
-    /// If there are fewer strands than guides or a parameter is out of range.
+    /// If there are fewer strands than guides, a parameter is out of range or an operator has no
+    /// derivative.
     pub fn new(target: &Groom, chain: Chain, options: StageOptions) -> Result<Self, FitterError> {
         let most = target.strands().counts().max().unwrap_or(0).clamp(16, 160);
         let points = options.points.unwrap_or(most);
@@ -81,6 +93,9 @@ impl Fitter {
         for (index, operator) in chain.operators.iter().enumerate() {
             let range = operator.check(index).map_err(crate::ChainError::from);
             range.map_err(BuildError::from)?;
+            if !operator.is_differentiable() {
+                return Err(FitterError::Operator { operator: operator.name(), index });
+            }
         }
         let (guides, strands) = (options.guides, targets.len());
         if guides == 0 || strands < guides {
@@ -104,8 +119,18 @@ impl Fitter {
     /// The head that hair grows on, in the target's unit: no strand is given to an operator guide
     /// that would [draw it through](super::avoid_head). It counts when guides are found, in the
     /// first stage.
-    pub fn set_head(&mut self, head: Mesh) {
+    ///
+    /// # Errors
+    ///
+    /// If guides were found already, with another head or without one.
+    pub fn set_head(&mut self, head: Mesh) -> Result<(), FitterError> {
+        let points = fingerprint_of(head.positions());
+        if self.state.stage != Stage::Initialize && self.state.head != Some(points) {
+            return Err(FitterError::Other("head"));
+        }
+        self.state.head = Some(points);
         self.head = Some(head);
+        Ok(())
     }
 
     /// What comes next.

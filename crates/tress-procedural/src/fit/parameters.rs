@@ -10,8 +10,8 @@
 //!    [slices](super::slices), derivatives by differences;
 //!
 //! and that is done twice: what was looked for while the others were far off is looked for again.
-//! Before that, pairs and a way downhill are tried with fewer strands, from the parameters given and
-//! from ordinary ones, so that a start that is far off does not lead into a valley of its own.
+//! Before that, pairs and a way downhill are tried with fewer strands, from the parameters given
+//! and from ordinary ones, so that a start that is far off does not lead into a valley of its own.
 //! Scale and clump are among the parameters: the paper's segments do not show them, differences of
 //! [neighbours](super::sample) do. Where it is asked for, they are at last set to where the
 //! [correlations](super::correlation) of target and model agree, found by bisection.

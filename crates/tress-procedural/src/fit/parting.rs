@@ -6,6 +6,8 @@
 //! plane of the triangle whose middle is nearest, so triangles should be small against the head.
 
 use glam::DVec3;
+use kiddo::SquaredEuclidean;
+use kiddo::immutable::float::kdtree::ImmutableKdTree;
 use rayon::prelude::*;
 use tress_geometry::Mesh;
 
@@ -62,6 +64,7 @@ pub fn avoid_head(groom: &mut ProceduralGroom, head: &Mesh) -> Result<usize, Bui
 /// Triangles by their middles and outward normals.
 struct Head {
     middles: Vec<DVec3>,
+    tree: ImmutableKdTree<f64, u32, 3, 32>,
     normals: Vec<DVec3>,
     low: DVec3,
     high: DVec3,
@@ -75,8 +78,11 @@ impl Head {
         let volume: f64 = corners().map(|[a, b, c]| a.dot(b.cross(c))).sum();
         let outward = if volume < 0.0 { -1.0 } else { 1.0 };
         let positions = mesh.positions().iter().copied();
+        let middles: Vec<DVec3> = corners().map(|[a, b, c]| (a + b + c) / 3.0).collect();
+        let items: Vec<[f64; 3]> = middles.iter().map(DVec3::to_array).collect();
         Self {
-            middles: corners().map(|[a, b, c]| (a + b + c) / 3.0).collect(),
+            middles,
+            tree: ImmutableKdTree::new_from_slice(&items),
             normals: corners().map(|t| outward * normal(t).normalize_or_zero()).collect(),
             low: positions.clone().fold(DVec3::INFINITY, DVec3::min),
             high: positions.fold(DVec3::NEG_INFINITY, DVec3::max),
@@ -88,10 +94,9 @@ impl Head {
         if x.cmplt(self.low).any() || x.cmpgt(self.high).any() {
             return f64::NEG_INFINITY;
         }
-        let distance = |k: &usize| self.middles[*k].distance_squared(x);
-        let nearer = |a: &usize, b: &usize| distance(a).total_cmp(&distance(b));
-        let nearest = (0..self.middles.len()).min_by(nearer);
-        nearest.map_or(f64::NEG_INFINITY, |k| (self.middles[k] - x).dot(self.normals[k]))
+        let nearest = self.tree.nearest_one::<SquaredEuclidean>(&x.to_array());
+        let k = nearest.item as usize;
+        (self.middles[k] - x).dot(self.normals[k])
     }
 
     /// Whether the middle of the way from a strand to a guide is in the head, deeper than either.

@@ -102,9 +102,9 @@ impl Search {
         Ok(residuals.norm_squared() / residuals.len().max(1) as f64)
     }
 
-    /// Tries `count` values over a parameter's range, more where it needs a [finer](Handle::fineness)
-    /// look, then half as many about the best of them, and keeps what is better than the loss
-    /// `before`; gives the loss.
+    /// Tries `count` values over a parameter's range, more where it needs a
+    /// [finer](Handle::fineness) look, then half as many about the best of them, and keeps what is
+    /// better than the loss `before`; gives the loss.
     pub(super) fn scan(&mut self, h: usize, count: usize, before: f64) -> Result<f64, StageError> {
         let handle = self.handles[h];
         let mut best = (before, handle.value(&self.operators));

@@ -98,7 +98,7 @@ pub(super) fn run(args: &GroomFitArgs, everywhere: &Everywhere) -> Result<Report
         _ => Fitter::new(&target, chain, options)?,
     };
     if let Some(head) = &args.head {
-        fitter.set_head(tress::io::mesh::read(head)?.mesh);
+        fitter.set_head(tress::io::mesh::read(head)?.mesh)?;
     }
     let outcome = advance(&mut fitter, args.checkpoint.as_deref(), &progress);
     // Whatever a stage that failed had found is worth keeping.

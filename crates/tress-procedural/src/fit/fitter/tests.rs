@@ -77,6 +77,32 @@ fn a_checkpoint_of_another_target_or_of_other_options_is_refused() {
 }
 
 #[test]
+fn a_head_that_comes_after_guides_were_found_is_refused() {
+    let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    let head = |size: f64| {
+        let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        Mesh::new(corners.map(|x| x * size - 9.0).to_vec(), triangles).expect("corners")
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut fitter = Fitter::new(&target(), chain(0.4, 0.2), options()).expect("a sound target");
+    fitter.set_head(head(1.0)).expect("no guides yet");
+    fitter.advance(&mut |_| {}).expect("guides");
+    fitter.save(folder.path()).expect("a writable folder");
+    let resumed = || Fitter::resume(folder.path(), &target(), chain(0.4, 0.2), options());
+    resumed().expect("a checkpoint").set_head(head(1.0)).expect("the same head");
+    let error = resumed().expect("a checkpoint").set_head(head(1.1)).unwrap_err();
+    assert_eq!(error.to_string(), "the checkpoint is of another head");
+}
+
+#[test]
+fn operators_that_cannot_be_fitted_are_refused_at_once() {
+    let mut chain = chain(0.4, 0.2);
+    chain.operators.push(Operator::Skip(crate::Skip::default()));
+    let error = Fitter::new(&target(), chain, options()).unwrap_err();
+    assert!(matches!(error, FitterError::Operator { operator: "skip", index: 2 }), "{error}");
+}
+
+#[test]
 fn fewer_strands_than_guides_are_refused() {
     let many = StageOptions { guides: 500, ..options() };
     let error = Fitter::new(&target(), chain(0.4, 0.2), many).unwrap_err();

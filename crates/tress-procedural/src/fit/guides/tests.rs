@@ -1,5 +1,6 @@
 //! The sweep against differences, and guides that find their way back.
 
+use super::descent::{advance, sweep};
 use super::*;
 use crate::{Bend, Clump, Instancing};
 
