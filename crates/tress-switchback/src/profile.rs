@@ -131,3 +131,42 @@ pub fn coil_frame(q: DVec3) -> Frame {
     let radius = if 0.0 < bending { bending / q.length_squared() } else { 0.0 };
     Frame { position: DVec3::Y * radius, axes }
 }
+
+#[cfg(test)]
+mod tests {
+    use tress_geometry::SuperHelix;
+
+    use super::*;
+    use crate::{Material, Switchback};
+
+    #[test]
+    fn frames_at_joints_are_right_to_the_fourth_order() {
+        let switchback = Switchback::new(0.5, &Material::default()).expect("within range");
+        let end = |steps| {
+            let elements = arcs(&switchback, 6.0, steps);
+            SuperHelix { root: Frame::IDENTITY, elements: &elements }.tip().axes
+        };
+        let exact = end(2048);
+        let error = |steps| {
+            let off = (end(steps) - exact).to_cols_array();
+            off.into_iter().fold(0.0, |worst, entry| f64::max(worst, entry.abs()))
+        };
+        let (coarse, fine) = (error(32), error(64));
+        assert!(fine < 1e-4 && (coarse / fine - 16.0).abs() < 2.0, "{coarse:e} {fine:e}");
+    }
+
+    #[test]
+    fn coils_of_both_hands_wind_about_the_x_axis_and_climb_it() {
+        for twist in [0.3, -0.3] {
+            let coil = Element { curvature: DVec3::new(twist, 0.2, 0.9), length: 50.0 };
+            let root = coil_frame(coil.curvature);
+            assert!(root.orthonormality_error() < 1e-14);
+            for part in [0.0, 0.3, 1.0] {
+                let s = part * coil.length;
+                let p = coil.frame_at(&root, s).position;
+                assert!((p.y.hypot(p.z) - coil.radius()).abs() < 1e-12);
+                assert!((p.x - s * 0.3 / coil.curvature.length()).abs() < 1e-12);
+            }
+        }
+    }
+}

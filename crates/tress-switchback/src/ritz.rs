@@ -287,8 +287,10 @@ impl CostFunction for &Problem {
 
 #[cfg(test)]
 mod tests {
+    use tress_geometry::{Element, Frame};
+
     use super::*;
-    use crate::{Switchback, rod};
+    use crate::{Switchback, material_curvature, rod};
 
     fn ritz(v: f64) -> Ritz {
         Ritz::new(v, &Material::default(), &RitzOptions::default()).expect("a pulled coil")
@@ -344,6 +346,41 @@ mod tests {
             let mirrored = right.curvature(s) * DVec3::new(1.0, -1.0, -1.0);
             assert!(left.curvature(s).distance(mirrored) < 1e-14);
         }
+    }
+
+    #[test]
+    fn the_widest_bump_has_fallen_to_the_share_where_the_room_ends() {
+        let ritz = ritz(0.5);
+        let [_, b1, _, _, b2, _, _, b3, _, b4, _] = ritz.parameters();
+        for share in [0.5, 0.05, 1e-4] {
+            let end = ritz.half_width(share);
+            let left = [b1, b2, b3, b4].map(|b| (-b * end * end).exp());
+            let widest = left.into_iter().fold(0.0, f64::max);
+            assert!((widest / share - 1.0).abs() < 1e-12, "{share}: {left:?}");
+        }
+    }
+
+    #[test]
+    fn the_energy_sees_how_far_the_middle_leans_from_the_axis() {
+        let options = RitzOptions::default();
+        let problem = Problem::new(0.4, &Material::default(), &options).expect("a problem");
+        let n = problem.start();
+        let gamma = Material::default().torsional();
+        // The same steps walked by a strand in space, whose axis stands still.
+        let mut frame = Frame::IDENTITY;
+        let mut greatest: f64 = 0.0;
+        for i in 0..problem.steps {
+            let s = problem.step * (i as f64 + 0.5 - problem.steps as f64);
+            let kappa = family(&n, &problem.right, gamma, s);
+            let above = problem.density(kappa) - problem.density(problem.right.curvature);
+            greatest = greatest.max(above.abs());
+            let element = Element { curvature: material_curvature(kappa), length: problem.step };
+            frame = element.advance(&frame);
+        }
+        let axis = material_curvature(problem.right.curvature).normalize();
+        let sine = frame.tangent().cross(axis).length();
+        let energy = problem.energy(&n);
+        assert!((energy - greatest - sine * sine).abs() < 1e-12, "{energy} {greatest} {sine}");
     }
 
     #[test]

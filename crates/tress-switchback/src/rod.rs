@@ -67,3 +67,23 @@ pub(crate) fn invariants(material: &Material, y: &State) -> [f64; 3] {
         elastic + rest + f3,
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_linearized_equations_are_half_the_difference_of_quadratic_ones() {
+        let material = Material { poisson_ratio: 0.3, rest_twist: 0.2 };
+        let y = [0.9, 0.2, -0.3, 0.1, -0.2, 0.4];
+        for w in [[0.5, -1.0, 2.0, 0.3, 0.7, -0.4], [-0.2, 0.6, 0.1, 1.5, -0.8, 0.9]] {
+            let moved = |sign: f64| -> State { std::array::from_fn(|i| y[i] + sign * w[i]) };
+            let (up, down) = (moved(1.0), moved(-1.0));
+            let (up, down) = (derivative(&material, &up), derivative(&material, &down));
+            let change = linearized(&material, &y, &w);
+            for i in 0..6 {
+                assert!((change[i] - 0.5 * (up[i] - down[i])).abs() < 1e-15, "{i}");
+            }
+        }
+    }
+}

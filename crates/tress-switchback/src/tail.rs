@@ -181,6 +181,20 @@ mod tests {
     }
 
     #[test]
+    fn the_slowest_deviation_decays_at_the_slower_rate() {
+        // A coil whose deviations do not swing has one that only shrinks.
+        let (_, stiff) = tail(0.97);
+        let rate = stiff.slowest();
+        assert!(0.0 < rate && rate < stiff.decay());
+        let [x, slope] = stiff.decay_by([1.0, -rate], 2.0);
+        let left = (-2.0 * rate).exp();
+        assert!((x - left).abs() + (slope + rate * left).abs() < 1e-12);
+        // Where they swing both rates are one.
+        let (_, swinging) = tail(0.3);
+        assert!((swinging.slowest() - swinging.decay()).abs() < 1e-15);
+    }
+
+    #[test]
     fn nothing_decays_where_nothing_pulls() {
         let m = Material::default();
         let ring = Coil::new(0.0, &m).expect("a ring");

@@ -71,6 +71,20 @@ fn the_room_shrinks_with_the_pull_and_grows_with_care() {
 }
 
 #[test]
+fn no_more_room_is_taken_than_the_share_asks_for() {
+    for v in [0.2, 0.5, 0.9] {
+        let switchback = switchback(v, 0.4);
+        let coil = switchback.coil().other_hand().curvature;
+        for share in [0.2, 0.05, 1e-3] {
+            let end = switchback.half_width(share);
+            let off = |s: f64| switchback.curvature(s).distance(coil) / coil.length();
+            let before = (0..100).map(|i| off(end - 0.01 * f64::from(i))).fold(0.0, f64::max);
+            assert!(share <= before, "{v} {share}: {before}");
+        }
+    }
+}
+
+#[test]
 fn wherever_it_is_promised_it_is_found() {
     for i in 0..=47 {
         for nu in [0.0, 0.1, 0.25, 0.4, 0.5] {

@@ -1,6 +1,7 @@
 use std::f64::consts::TAU;
 
 use super::*;
+use crate::{Material, Profile, Switchback, material_curvature};
 use tress_geometry::Frame;
 
 fn strand(elements: &[Element]) -> SuperHelix<'_> {
@@ -85,6 +86,52 @@ fn a_straight_coil_keeps_all_it_should() {
         let aside = (across - direction * across.dot(direction)).length() / radius;
         assert!(aside < 0.15, "{radius} {pitch}: {aside} radii aside");
     }
+}
+
+#[test]
+fn the_room_holds_the_switchback_of_the_coil() {
+    // A coil of a frequency that is solved for: the room then is the exact switchback.
+    let v: f64 = 0.5;
+    let curvature = 2.0 * DVec3::new(v, 0.0, (1.0 - v * v).sqrt());
+    let before = vec![Element { curvature, length: 0.5 }; 200];
+    let options = InsertOptions { share: 1e-4, ..InsertOptions::default() };
+    let (elements, placed) = insert_at(&strand(&before), 50.0, &options).expect("room for it");
+    let exact = Switchback::new(v, &Material::default()).expect("within range");
+    let rest = curvature.length() / exact.coil().turning();
+    let mut s = 0.0;
+    for element in &elements {
+        let from_middle = s + 0.5 * element.length - placed.arc_length;
+        s += element.length;
+        if from_middle.abs() + element.length < placed.half_width {
+            let expected = rest * material_curvature(exact.curvature(from_middle * rest));
+            let off = element.curvature.distance(expected) / curvature.length();
+            assert!(off < 5e-3, "{from_middle}: {off}");
+        }
+    }
+}
+
+#[test]
+fn a_coil_that_tightens_is_met_at_both_ends_of_the_room() {
+    let mean = 2.0 * DVec3::new(0.5, 0.0, 0.75_f64.sqrt());
+    let tightening = |i: u32| {
+        let s = 0.5 * f64::from(i) + 0.25;
+        Element { curvature: mean * (1.0 + 0.004 * (s - 50.0)), length: 0.5 }
+    };
+    let before: Vec<Element> = (0..200).map(tightening).collect();
+    let options = InsertOptions { share: 1e-3, ..InsertOptions::default() };
+    let (elements, placed) = insert_at(&strand(&before), 50.0, &options).expect("room for it");
+    let mut s = 0.0;
+    let mut met = 0;
+    for pair in elements.windows(2) {
+        s += pair[0].length;
+        let from_middle = (s - placed.arc_length).abs();
+        if (from_middle - placed.half_width).abs() < 1e-9 {
+            let jump = pair[0].curvature.distance(pair[1].curvature) / mean.length();
+            assert!(jump < 1e-2, "{s}: {jump}");
+            met += 1;
+        }
+    }
+    assert_eq!(met, 2);
 }
 
 #[test]

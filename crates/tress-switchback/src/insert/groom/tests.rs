@@ -32,6 +32,15 @@ fn strands_of_a_wisp_get_theirs_at_the_same_places() {
 }
 
 #[test]
+fn a_density_is_how_many_there_are_in_a_unit_of_length() {
+    let places = Placing::Density(0.5).places(4000.0, strand_rng(5, 0));
+    assert!(places.is_sorted() && places.iter().all(|s| (0.0..4000.0).contains(s)));
+    // 2000 are expected, with a deviation of 45.
+    assert!((1800..2200).contains(&places.len()), "{}", places.len());
+    assert_eq!(Placing::Density(0.0).places(4000.0, strand_rng(5, 0)), [0.0; 0]);
+}
+
+#[test]
 fn two_switchbacks_give_the_first_hand_back() {
     let (groom, groups) = groom();
     let placing = Placing::Shares(vec![0.75, 0.25]);
@@ -40,6 +49,10 @@ fn two_switchbacks_give_the_first_hand_back() {
     assert_eq!((report.strands, report.placed.len(), report.no_room), (6, 12, 0));
     assert_eq!(report.placed[0].1.hand_before, Hand::Left);
     assert_eq!(report.placed[1].1.hand_before, Hand::Right);
+    // The middle one of a wisp's strands has 205 elements in the one and 220 in the other.
+    let placed = |i: usize| report.placed[i].1.arc_length;
+    assert!((placed(0) - 0.25 * 82.0).abs() < 1e-9 && (placed(5) - 0.75 * 82.0).abs() < 1e-9);
+    assert!((placed(6) - 0.25 * 88.0).abs() < 1e-9 && (placed(11) - 0.75 * 88.0).abs() < 1e-9);
     for (before, after) in groom.iter().zip(changed.iter()) {
         let last = after.elements[after.elements.len() - 1];
         assert!((last.twist() - before.elements[0].twist()).abs() < 1e-6);
