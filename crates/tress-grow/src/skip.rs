@@ -19,11 +19,8 @@ pub struct SkipScratch {
 }
 
 /// Moves the points that `skip` leaves out onto the spline through the others; the first two and
-/// the last stay. A turn of the hair takes `points_per_turn` points, 1 or more.
-///
-/// # Panics
-///
-/// If the probability is above 1 or no number.
+/// the last stay. A turn of the hair takes `points_per_turn` points, 1 or more. A probability above
+/// 1 counts as 1, one that is no number as 0.
 pub fn skip_periods(
     hair: &mut [DVec3],
     skip: &Skip,
@@ -32,14 +29,15 @@ pub fn skip_periods(
     scratch: &mut SkipScratch,
 ) {
     let n = hair.len();
-    if skip.probability <= 0.0 || n < 4 {
+    if skip.probability.is_nan() || skip.probability <= 0.0 || n < 4 {
         return;
     }
+    let probability = skip.probability.min(1.0);
     scratch.kept.clear();
     scratch.kept.extend([0, 1]);
     match skip.each {
         SkipUnit::Points => {
-            scratch.kept.extend((2..n - 1).filter(|_| !rng.random_bool(skip.probability)));
+            scratch.kept.extend((2..n - 1).filter(|_| !rng.random_bool(probability)));
         }
         SkipUnit::Turns => {
             // Hairs of a wisp begin their turns at different places.
@@ -49,7 +47,7 @@ pub fn skip_periods(
             for i in 2..n - 1 {
                 let here = whole((i as f64 + start) / points_per_turn);
                 if here != turn {
-                    (turn, skipped) = (here, rng.random_bool(skip.probability));
+                    (turn, skipped) = (here, rng.random_bool(probability));
                 }
                 if !skipped {
                     scratch.kept.push(i);
@@ -118,7 +116,10 @@ mod tests {
     #[test]
     fn nothing_skipped_is_nothing_changed() {
         for each in [SkipUnit::Points, SkipUnit::Turns] {
-            assert_eq!(skipped(0.0, each, &coil(60), 1), coil(60));
+            for nothing in [0.0, -1.0, f64::NAN] {
+                assert_eq!(skipped(nothing, each, &coil(60), 1), coil(60));
+            }
+            assert_eq!(skipped(7.0, each, &coil(60), 1), skipped(1.0, each, &coil(60), 1));
         }
         for n in 0..4 {
             assert_eq!(skipped(1.0, SkipUnit::Points, &coil(n), 1), coil(n));

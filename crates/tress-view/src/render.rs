@@ -171,8 +171,7 @@ pub fn render_within(
 
 /// Draws a groom once for each of several colourings, all seen as by [`render`].
 ///
-/// Pictures coloured by values share the work that does not depend on colours: three of them take
-/// half as long again as one.
+/// Pictures coloured by values share the work that does not depend on colours.
 ///
 /// ```
 /// use glam::DVec3;
@@ -203,7 +202,7 @@ pub fn render_each(
     let up = groom.up.unwrap_or(UpAxis::Y);
     let mut images = Vec::with_capacity(colorings.len());
     for alike in colorings.chunk_by(|a, b| a.scale().is_some() == b.scale().is_some()) {
-        let legend = alike.first().and_then(Coloring::scale).map_or(0, |_| legend_height(options));
+        let legend = legend_height(&alike[0], options);
         let seen = Size::new(width, height - legend);
         let camera = Camera::fit(points(), up, options.view, seen, options.margin);
         let pictures = seen_by(&camera, groom, alike, options)?;
@@ -221,16 +220,16 @@ fn render_around(
     options: &RenderOptions,
 ) -> Result<RgbImage, RenderError> {
     let Size { width, height } = check_size(options.size)?;
-    let legend = coloring.scale().map_or(0, |_| legend_height(options));
+    let legend = legend_height(coloring, options);
     let up = groom.up.unwrap_or(UpAxis::Y);
     let seen = Size::new(width, height - legend);
     let camera = Camera::fit(points, up, options.view, seen, options.margin);
     Ok(with_legend(render_seen_by(&camera, groom, coloring, options)?, coloring, options))
 }
 
-/// Pixels that the legend takes of a picture coloured by values.
-fn legend_height(options: &RenderOptions) -> u32 {
-    legend::height(options.size)
+/// Pixels that the legend takes of a picture: none where colours mean nothing.
+fn legend_height(coloring: &Coloring<'_>, options: &RenderOptions) -> u32 {
+    coloring.scale().map_or(0, |_| legend::height(options.size))
 }
 
 /// A picture with the legend of its colours below it, if they mean anything.
@@ -264,7 +263,8 @@ pub fn render_seen_by(
     Ok(images.into_iter().next().unwrap_or_default())
 }
 
-/// One picture a colouring: those by values three at a time, of which more would leave the cache.
+/// One picture for each of the colourings, which are all natural or all by values: these three at a
+/// time, of which more would leave the cache.
 fn seen_by(
     camera: &Camera,
     groom: &Groom,
@@ -278,23 +278,21 @@ fn seen_by(
         Ok(flatten(groom.strands(), &dress, camera)?)
     };
     let mut images = Vec::with_capacity(colorings.len());
-    for alike in colorings.chunk_by(|a, b| a.scale().is_some() == b.scale().is_some()) {
-        for part in alike.chunks(3) {
-            let flats: Vec<_> = part.iter().map(flat).collect::<Result<_, RenderError>>()?;
-            let maps: Vec<_> = part.iter().filter_map(Coloring::scale).map(Mapped::new).collect();
-            let stage = Stage::plain(decode(options.value_background));
-            images.extend(match maps.len() {
-                0 => {
-                    let paint = Natural(options.hair.linear());
-                    let stage = Stage::natural(decode(options.background));
-                    let draw = |flat| draw::<1, _>(&[flat], &[paint], &stage, camera.size());
-                    flats.into_iter().flat_map(draw).collect()
-                }
-                1 => draw::<1, _>(&flats, &maps, &stage, camera.size()),
-                2 => draw::<2, _>(&flats, &maps, &stage, camera.size()),
-                _ => draw::<3, _>(&flats, &maps, &stage, camera.size()),
-            });
-        }
+    for part in colorings.chunks(3) {
+        let flats: Vec<_> = part.iter().map(flat).collect::<Result<_, RenderError>>()?;
+        let maps: Vec<_> = part.iter().filter_map(Coloring::scale).map(Mapped::new).collect();
+        let stage = Stage::plain(decode(options.value_background));
+        images.extend(match maps.len() {
+            0 => {
+                let paint = Natural(options.hair.linear());
+                let stage = Stage::natural(decode(options.background));
+                let draw = |flat| draw::<1, _>(&[flat], &[paint], &stage, camera.size());
+                flats.into_iter().flat_map(draw).collect()
+            }
+            1 => draw::<1, _>(&flats, &maps, &stage, camera.size()),
+            2 => draw::<2, _>(&flats, &maps, &stage, camera.size()),
+            _ => draw::<3, _>(&flats, &maps, &stage, camera.size()),
+        });
     }
     Ok(images)
 }

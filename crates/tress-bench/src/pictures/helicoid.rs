@@ -128,7 +128,7 @@ fn wisp_shapes() -> Outcome {
     let piece = |kt, kn, kb, alpha, length| Piece { k: Helicoid::new(kt, kn, kb, alpha), length };
     let long = vec![piece(0.5, 0.0, 0.1, 0.3, 3.0), piece(-0.35, 0.0, 0.2, 0.5, 3.0)];
     let curly: Vec<Piece> =
-        [0.9, 1.0, 0.8, 1.1].map(|a| piece(2.2 * a, 0.0, 0.15, 0.9, 1.8)).to_vec();
+        [0.9, 1.0, 0.8, 1.1].map(|a| piece(1.3 * a, 0.0, 0.09, 0.9, 3.0)).to_vec();
     let fanned = vec![piece(0.3, 0.35, 0.1, 0.3, 3.0), piece(-0.2, 0.1, 0.2, 0.5, 3.0)];
     let calm = WispOptions { radius: 0.22, points: 120, frizz: 0.006, ..WispOptions::default() };
     let waviness = Waviness { amplitude: 0.12, frequency: 5.0, fade_in: 1.5 };
@@ -138,14 +138,14 @@ fn wisp_shapes() -> Outcome {
         (&fanned, WispOptions { fanning: 0.03, ..calm.clone() }, "kN above 0"),
         (&long, WispOptions { profile: vec![1.0, 1.6, 0.1], ..calm.clone() }, "radius profile"),
         (&long, WispOptions { waviness, ..calm.clone() }, "waves"),
-        (&curly, WispOptions { radius: 0.12, ..calm.clone() }, "four curly pieces"),
+        (&curly, WispOptions { radius: 0.18, ..calm.clone() }, "four curly pieces"),
     ] {
         let strands = Strands::from_counts([pieces.len()], pieces.clone())?;
         let hairs = HelicoidGroom::new(vec![hanging(DVec3::ZERO)], strands)?;
         grooms.push((wisps(&hairs, &options, Tracing::default(), 3)?, caption));
     }
     let view = View::Front;
-    let frame = Frame::around(grooms.iter().map(|(groom, _)| groom), view, (330, 640), 0.02);
+    let frame = Frame::around(grooms.iter().map(|(groom, _)| groom), view, (330, 330), 0.02);
     let panels: Vec<_> = grooms.iter().map(|(groom, caption)| (groom, *caption)).collect();
     frame.sheet("helicoid-wisps.png", panels.len(), &panels)
 }
@@ -168,12 +168,12 @@ fn interpolation() -> Outcome {
     let pair = Frame::around([&line, &by_points], View::ThreeQuarter, (760, 420), 0.035);
     let plane = plane()?;
     let head = on_scalp()?;
-    let around = |groom| Frame::around([groom], View::ThreeQuarter, (760, 520), 0.03);
+    let around = |groom, view, width| Frame::around([groom], view, (760, 520), width);
     let images = [
         pair.draw(&line, &Coloring::Natural)?,
         pair.draw(&by_points, &Coloring::Natural)?,
-        around(&plane).draw(&plane, &Coloring::Natural)?,
-        around(&head).draw(&head, &Coloring::Natural)?,
+        around(&plane, View::ThreeQuarter, 0.03).draw(&plane, &Coloring::Natural)?,
+        around(&head, View::Front, 0.06).draw(&head, &Coloring::Natural)?,
     ];
     let captions = [
         "two guides half a turn apart, helicoids mixed",
@@ -218,11 +218,12 @@ fn on_scalp() -> Outcome<Groom> {
     let at = tress::grow::scatter(&mesh, 9, density, 2)?;
     let at_guides = normals_at(&mesh, &at);
     let widest = at.iter().fold(0.0, |most, p| f64::max(most, p.x.abs()));
-    let frame = |(&position, &normal): (&DVec3, &DVec3)| Root {
-        position,
-        axes: Root { position, ..hanging(position) }.turned_to(normal).axes,
+    // They stand on the scalp and bend downwards.
+    let frame = |(&position, &normal): (&DVec3, &DVec3)| {
+        let down = DVec3::NEG_Y.reject_from_normalized(normal).normalize_or(DVec3::Z);
+        Root { position, axes: DMat3::from_cols(normal, down, normal.cross(down)) }
     };
-    let curls = at.iter().map(|p| 0.8 + 0.8 * p.x / widest);
+    let curls = at.iter().map(|p| 0.45 + 0.4 * p.x / widest);
     let pieces: Vec<Piece> = curls.flat_map(guide).collect();
     let strands = Strands::from_counts([3; 9], pieces)?;
     let guides = HelicoidGroom::new(at.iter().zip(&at_guides).map(frame).collect(), strands)?;
@@ -270,8 +271,8 @@ const STRAIGHT: &str = "yuksel_straight.hair";
 /// Two heads, a tenth of their strands, and what comes back of them by helicoids and by points.
 fn reconstruction() -> Outcome {
     let mut images = Vec::new();
-    for (file, pieces, points, width, view) in
-        [(COILS, 20, 21, 0.05, View::Front), (STRAIGHT, 8, 16, 0.16, View::Front)]
+    for (file, pieces, points, width, size) in
+        [(COILS, 20, 21, 0.07, (280, 330)), (STRAIGHT, 8, 16, 0.22, (280, 250))]
     {
         let groom = grooms::groom(file, 2000, points)?;
         let groom = resampled(&groom, groom.strands().len(), points)?;
@@ -286,7 +287,7 @@ fn reconstruction() -> Outcome {
         let fine = 4 * points;
         let ours = sample(&filled.hairs, fine, Tracing::default())?;
         let plain = mean_of_points(&resampled(&guides, tenth.len(), fine)?, &roots, &options)?;
-        let frame = Frame::around([&groom], view, (470, 560), width);
+        let frame = Frame::around([&groom], View::Front, size, width);
         for groom in [
             &resampled(&groom, groom.strands().len(), fine)?,
             &sample(&fitted.hairs, fine, Tracing::default())?,

@@ -122,7 +122,7 @@ fn fitted(known: &Known) -> Outcome<(ProceduralGroom, f64)> {
 }
 
 /// Says truth, found and error of each parameter; gives the worst error of range or truth,
-/// whichever is the less, a large bend's halved, and the worst of the truth.
+/// whichever is the less, and the worst of the truth.
 fn table(known: &Known, groom: &ProceduralGroom) -> [f64; 2] {
     let mut worst = [0.0_f64; 2];
     for (truth, found) in known.groom.chain.operators.iter().zip(&groom.chain.operators) {
@@ -131,8 +131,7 @@ fn table(known: &Known, groom: &ProceduralGroom) -> [f64; 2] {
             let name = format!("{} {}", truth.name(), parameter.name);
             let of_truth = 100.0 * (a - b).abs() / a;
             let error = range(&name).map_or(of_truth, |r| of_truth.min(100.0 * (a - b).abs() / r));
-            let far = matches!(truth, Operator::Bend(bend) if 60.0 < bend.angle_degrees);
-            worst[0] = worst[0].max(if far { 0.5 * error } else { error });
+            worst[0] = worst[0].max(error);
             worst[1] = worst[1].max(of_truth);
             let line = format!("#   {name:<24}{a:>10.4}{b:>10.4}{of_truth:>8.1} %{error:>8.1} %");
             say(&line);
