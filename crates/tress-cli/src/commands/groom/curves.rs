@@ -33,7 +33,7 @@ pub(super) fn page(
         let losses: Vec<f64> =
             history.iter().filter(|r| r.stage == stage).map(|r| r.loss).collect();
         if 1 < losses.len() {
-            page.svg(&curve(stage.describe(), "loss", &losses)?, stage.describe());
+            page.svg(&curve(stage.describe(), "loss", &losses)?, caption(stage));
         }
     }
     page.heading("Parameters over the steps");
@@ -49,6 +49,16 @@ pub(super) fn page(
         }
     }
     Ok(page.finish())
+}
+
+fn caption(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Parameters => {
+            "finding parameters: with few strands from those given and from ordinary ones, then with \
+             more from the better"
+        }
+        stage => stage.describe(),
+    }
 }
 
 fn curve(title: &str, y: &str, values: &[f64]) -> Result<String, Failure> {
