@@ -1,8 +1,9 @@
 //! What guides are moved by, smoothed over their neighbours.
 //!
-//! `(I + lambda L) g' = g`, `L` the Laplacian of the Delaunay triangulation of the guides' roots with
-//! weights `exp(-|t_a - t_b|^2 / (2 sigma_d^2))` by root directions `t`, so that nothing is smoothed
-//! over a parting. (An implicit form of the bilateral gradient filter of Chang et al. 2024.)
+//! `(I + lambda L) g' = g`, `L` the Laplacian of the Delaunay triangulation of the guides' roots
+//! with weights `exp(-|t_a - t_b|^2 / (2 sigma_d^2))` by root directions `t`, so that nothing is
+//! smoothed over a parting. (An implicit form of the bilateral gradient filter of Chang et al.
+//! 2024.)
 
 use glam::DVec3;
 use rayon::prelude::*;
