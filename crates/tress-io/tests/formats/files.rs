@@ -121,7 +121,7 @@ fn paths_that_are_no_files() {
     let error = read(&missing).expect_err("missing").to_string();
     assert_eq!(error, format!("{}: no such file", missing.display()));
     let error = save(&missing, &full_groom(Format::Obj)).expect_err("missing").to_string();
-    assert_eq!(error, format!("{}: no such file", missing.display()));
+    assert_eq!(error, format!("{}: no such folder", missing.display()));
     for name in ["groom.docx", "groom", "groom.", ".obj"] {
         let path = folder.path().join(name);
         fs::write(&path, b"").expect("a folder to write to");
