@@ -36,15 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             println!("  {stage:?}: {seconds:.1} s, {steps} steps, loss {first:.4} to {last:.4}");
         }
         let Some(groom) = fitter.groom() else { continue };
-        let roots = groom.guide_roots();
-        let truth = &known.groom;
-        let instances =
-            tress_procedural::Instances::by_distance(&truth.guide_roots(), &roots, 4, 0.02);
-        let true_guides = instances.instance(&truth.guides, &roots.positions);
-        let pairs = true_guides.points().iter().zip(groom.guides.points());
-        let off =
-            pairs.map(|(a, b)| a.distance(*b)).sum::<f64>() / groom.guides.points().len() as f64;
-        println!("  guides {off:.3} off");
+        println!("  guides {:.3} off", known.guides_off(groom));
         for (operator, fitted) in known.groom.chain.operators.iter().zip(&groom.chain.operators) {
             let values = operator.values().into_iter().zip(fitted.values());
             for (parameter, (truth, found)) in operator.parameters().iter().zip(values) {

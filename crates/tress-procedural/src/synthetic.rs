@@ -8,7 +8,7 @@
 use glam::DVec3;
 
 use crate::{
-    Bend, BuildError, Chain, Clump, Curl, EvenStrands, Frizz, Instancing, Operator,
+    Bend, BuildError, Chain, Clump, Curl, EvenStrands, Frizz, Instances, Instancing, Operator,
     ProceduralGroom, Roots, Scale,
 };
 
@@ -21,6 +21,32 @@ pub struct Known {
     pub groom: ProceduralGroom,
     /// The same operators with parameters far off.
     pub start: Chain,
+}
+
+impl Known {
+    /// Mean distance of the points of `found`'s guides from the true guides, blended at their
+    /// roots, in the groom's unit.
+    ///
+    /// ```
+    /// use tress_procedural::synthetic::known;
+    ///
+    /// let known = known(4, 0.01)?;
+    /// let mut moved = known.groom.clone();
+    /// for guide in moved.guides.points_mut().chunks_mut(101) {
+    ///     guide[1..].iter_mut().for_each(|x| x.y += 0.5);
+    /// }
+    /// let off = known.guides_off(&moved) - known.guides_off(&known.groom);
+    /// assert!((0.3..0.6).contains(&off));
+    /// # Ok::<(), tress_procedural::BuildError>(())
+    /// ```
+    #[must_use]
+    pub fn guides_off(&self, found: &ProceduralGroom) -> f64 {
+        let roots = found.guide_roots();
+        let instances = Instances::by_distance(&self.groom.guide_roots(), &roots, NEIGHBORS, SIGMA);
+        let blended = instances.instance(&self.groom.guides, &roots.positions);
+        let pairs = blended.points().iter().zip(found.guides.points());
+        pairs.map(|(a, b)| a.distance(*b)).sum::<f64>() / found.guides.points().len().max(1) as f64
+    }
 }
 
 /// What the hair does before operators.
@@ -36,6 +62,9 @@ struct Style {
 const POINTS: usize = 101;
 const GUIDES: usize = 500;
 const HEAD: f64 = 9.0;
+/// Guides a strand is blended from, and how far each reaches in texture coordinates.
+const NEIGHBORS: usize = 4;
+const SIGMA: f64 = 0.02;
 
 const STYLES: [Style; 7] = [
     Style { name: "wavy, chin", strands: 28_022, length: 20.0, fall: 0.9 },
@@ -153,7 +182,7 @@ pub fn known(style: usize, share: f64) -> Result<Known, BuildError> {
     }
     let mut groom = ProceduralGroom::new(guides, cap(strands))?;
     groom.guide_uv = guide_roots.uv;
-    groom.instancing = Instancing::Gaussian { neighbors: 4, sigma: 0.02 };
+    groom.instancing = Instancing::Gaussian { neighbors: NEIGHBORS, sigma: SIGMA };
     groom.seed = 11;
     groom.unit = Some(0.01);
     groom.up = Some(tress_geometry::UpAxis::Y);

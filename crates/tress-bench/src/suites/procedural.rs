@@ -10,8 +10,7 @@ use tress::geometry::Groom;
 use tress::procedural::fit::{Fitter, Stage, StageOptions};
 use tress::procedural::synthetic::{COUNT, Known, known};
 use tress::procedural::{
-    Bend, Bound, Chain, Clump, Curl, EvenStrands, Frizz, Instances, Operator, ProceduralGroom,
-    Scale, draw,
+    Bend, Bound, Chain, Clump, Curl, EvenStrands, Frizz, Operator, ProceduralGroom, Scale, draw,
 };
 
 use crate::Outcome;
@@ -79,7 +78,7 @@ fn recover_all(figures: &mut Figures, share: f64) -> Outcome {
         let known = known(style, share)?;
         let ((groom, seconds), bytes) = held(|| fitted(&known))?;
         peak = peak.max(bytes.unwrap_or(0.0));
-        let (strands, distance) = (known.groom.roots.len(), guide_distance(&known, &groom));
+        let (strands, distance) = (known.groom.roots.len(), known.guides_off(&groom));
         let what = known.name;
         say(&format!("# {what}: {strands} strands, {seconds:.0} s, guides {distance:.3} cm off"));
         let errors = table(&known, &groom);
@@ -147,14 +146,4 @@ fn range(name: &str) -> Option<f64> {
         "bend angle_degrees" => Some(180.0),
         _ => None,
     }
-}
-
-/// Mean distance of the found guides' points from the true guides blended at their roots.
-fn guide_distance(known: &Known, groom: &ProceduralGroom) -> f64 {
-    let roots = groom.guide_roots();
-    let truth = &known.groom;
-    let instances = Instances::by_distance(&truth.guide_roots(), &roots, 4, 0.02);
-    let true_guides = instances.instance(&truth.guides, &roots.positions);
-    let pairs = true_guides.points().iter().zip(groom.guides.points());
-    pairs.map(|(a, b)| a.distance(*b)).sum::<f64>() / groom.guides.points().len() as f64
 }

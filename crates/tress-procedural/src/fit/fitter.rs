@@ -128,7 +128,6 @@ impl Fitter {
         if self.state.stage != Stage::Initialize && self.state.head != Some(points) {
             return Err(FitterError::Other("head"));
         }
-        self.state.head = Some(points);
         self.head = Some(head);
         Ok(())
     }
@@ -236,6 +235,7 @@ impl Fitter {
             avoid_head(&mut groom, head)?;
         }
         groom.draw_missing();
+        self.state.head = self.head.as_ref().map(|head| fingerprint_of(head.positions()));
         let mut note = note(&mut self.state.history, Stage::Initialize, 1, watch);
         note(loss, &groom.chain.operators);
         Ok(groom)

@@ -345,4 +345,36 @@ mod tests {
         moved.strand_mut(7).iter_mut().for_each(|x| x.y *= 1.2);
         assert!(loss(&moved) > 1e-3);
     }
+
+    #[test]
+    fn a_bend_does_not_hide_frizz() {
+        // Strands bend by different amounts, far more than they are frizzy.
+        let strands = |amplitude: f64| {
+            let point = |i: u32, j: u32| {
+                let s = 0.1 * f64::from(j);
+                let aside = 0.05 * f64::from(i % 10) * s * s;
+                let noise = (2.1 * f64::from(j) + f64::from(i)).sin();
+                DVec3::new(aside + amplitude * noise, s, 0.0)
+            };
+            let points = (0..100).flat_map(|i| (0..64).map(move |j| point(i, j))).collect();
+            EvenStrands::new(64, points).expect("100 strands")
+        };
+        let targets = strands(0.01);
+        let sample = Sample {
+            strands: (0..100).collect(),
+            patches: (0..10).map(|p| 10 * p..10 * p + 10).collect(),
+            mates: Vec::new(),
+        };
+        let slices = Slices::new(&targets, &strands(0.0), &sample, 64, 3);
+        let residuals = slices.residuals(&strands(0.02));
+        let spectra = &residuals[64 * RANKS..];
+        let loss = spectra.iter().map(|r| r * r).sum::<f64>() / spectra.len() as f64;
+        assert!(loss > 0.15, "{loss}");
+    }
+
+    #[test]
+    fn differences_that_are_far_off_are_bounded() {
+        assert!((near(1e9) - FAR).abs() < 1e-6 && (near(-1e9) + FAR).abs() < 1e-6);
+        assert!((near(0.1) - 0.1).abs() < 1e-3);
+    }
 }

@@ -36,6 +36,18 @@ fn scale_clump_and_frizz_are_found() {
 }
 
 #[test]
+fn a_curl_is_found_from_a_fifth_of_its_frequency() {
+    let (mut groom, targets, truth) = begun(5);
+    let sound: Vec<usize> = (0..targets.len()).collect();
+    let options = ParameterOptions { strands: 400, rounds: 1, ..quick() };
+    fit_parameters(&mut groom, &targets, &sound, &options, &mut |_, _| {}).expect("finite losses");
+    let (found, truth) = (groom.chain.operators[2].values(), truth[2].values());
+    assert!((found[0] / truth[0] - 1.0).abs() < 0.1, "radius {}", found[0]);
+    assert!((found[1] / truth[1] - 1.0).abs() < 0.05, "frequency {}", found[1]);
+    assert!((found[3] - truth[3]).abs() < 0.1, "start {}", found[3]);
+}
+
+#[test]
 fn a_loss_that_is_not_a_number_leaves_the_last_good_parameters() {
     let (mut groom, mut targets, _) = begun(4);
     targets.strand_mut(0)[50].x = f64::NAN;
