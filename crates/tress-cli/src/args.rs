@@ -42,7 +42,7 @@ pub(crate) struct Everywhere {
     /// Say nothing but errors
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
-    /// Write only the I-th of N shares of the strands; `tress merge` joins them
+    /// Only the I-th of N shares of the strands; `tress merge` joins the files written
     #[arg(long, global = true, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
     /// Allow the output to be the input file

@@ -86,6 +86,15 @@ impl Command {
         }
     }
 
+    /// Whether it can work on a share of the strands. What others find needs all of them.
+    fn shares(&self) -> bool {
+        match self {
+            Self::Demo(_) | Self::Armature(_) | Self::Spectra(_) | Self::Merge(_) => false,
+            Self::Groom(args) => args.shares(),
+            _ => true,
+        }
+    }
+
     /// What was chosen of what formats leave open, by commands that write grooms.
     pub(crate) fn format(&self) -> Option<&FormatArgs> {
         match self {
@@ -113,6 +122,10 @@ fn given<'a>(files: &[&'a Option<PathBuf>]) -> Vec<&'a Path> {
 pub(crate) fn run(command: &Command, everywhere: &Everywhere) -> Result<Report, Failure> {
     if let (Some(output), Some(format)) = (command.outputs().first(), command.format()) {
         target::check_program(output, format)?;
+    }
+    if everywhere.shard.is_some() && !command.shares() {
+        let message = "--shard: this command needs all strands; run it without";
+        return Err(Failure::Usage(message.into()));
     }
     match command {
         Command::Demo(args) => demo::run(args, everywhere),

@@ -206,6 +206,18 @@ pub(crate) fn fit_as_json(fit: &FitReport) -> Value {
 /// its coil at worst.
 const POINTS_PER_TURN: f64 = 16.0;
 
+/// The share of a file's strands that was asked for.
+pub(crate) fn share_of(model: Model, everywhere: &Everywhere) -> Model {
+    match (model, everywhere.shard) {
+        (model, None) => model,
+        (Model::Polylines(groom), Some(_)) => Model::Polylines(share(groom, everywhere)),
+        (Model::Helices(helices), Some(shard)) => {
+            let strands = shard.range(helices.len()).collect::<Vec<_>>();
+            Model::Helices(helices.select(&strands))
+        }
+    }
+}
+
 /// The share of the strands of polylines that was asked for.
 pub(crate) fn share(groom: Groom, everywhere: &Everywhere) -> Groom {
     match everywhere.shard {

@@ -28,8 +28,9 @@ pub enum Model {
 /// [`ReadError`]. The message is one line that begins with the path.
 pub fn read(path: impl AsRef<Path>) -> Result<Model, ReadError> {
     let path = path.as_ref();
-    let format = Format::from_path(path)?;
+    // A folder has no extension either, but that is not what is wrong with it.
     let file = open(path).map_err(|source| ReadError::Open { path: path.into(), source })?;
+    let format = Format::from_path(path)?;
     read_as(format, path, file).map_err(|source| ReadError::Parse { path: path.into(), source })
 }
 

@@ -12,6 +12,7 @@
 //!     convention: Paper,
 //!     seed: 1,
 //!     instancing: Gaussian(neighbors: 8, sigma: 0.4),
+//!     widths: [0.008, 0.008, 0.002],
 //!     operators: [
 //!         Clump(profile: 1.5),
 //!         Curl(radius: 0.3, frequency: 0.5, random_frequency: 0.05, start: 0.2),
@@ -41,6 +42,8 @@ struct Description {
     #[serde(default)]
     seed: u64,
     instancing: Instancing,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    widths: Vec<f64>,
     operators: Vec<Operator>,
 }
 
@@ -125,6 +128,7 @@ impl ProceduralGroom {
             convention: self.chain.convention,
             seed: self.seed,
             instancing: self.instancing,
+            widths: self.widths.clone(),
             operators: self.chain.operators.clone(),
         };
         let text = options()
@@ -158,7 +162,7 @@ impl ProceduralGroom {
         })?;
         let beside = path.with_file_name(&description.data);
         let bytes = std::fs::read(&beside).map_err(io(&beside))?;
-        let Description { convention, seed, instancing, operators, .. } = description;
+        let Description { convention, seed, instancing, widths, operators, .. } = description;
         let chain = Chain { convention, operators };
         for (index, operator) in chain.operators.iter().enumerate() {
             operator.check(index).map_err(|error| FileError::Groom {
@@ -166,7 +170,7 @@ impl ProceduralGroom {
                 source: BuildError::Chain(error.into()),
             })?;
         }
-        let groom = data::decode(&bytes, chain, seed, instancing)
+        let groom = data::decode(&bytes, chain, seed, instancing, widths)
             .map_err(|source| FileError::Data { path: beside.clone(), source })?;
         groom.check().map_err(|source| FileError::Groom { path: beside, source })?;
         Ok(groom)

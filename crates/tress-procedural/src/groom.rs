@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use tress_geometry::{Column, Groom, UpAxis, names};
 
 use crate::numbers::{count, draw_one};
-use crate::{Bound, Chain, ChainError, EvenStrands, Instances, Instancing, Roots, Surface};
+use crate::{Bound, Chain, ChainError, EvenStrands, Instances, Instancing, Roots, Surface, widths};
 
 /// A groom as guides plus operators.
 ///
@@ -45,6 +45,9 @@ pub struct ProceduralGroom {
     pub instances: Option<Instances>,
     /// The random numbers of each operator, see [`draw`](crate::draw).
     pub numbers: Vec<Vec<f64>>,
+    /// Widths of every strand at places even from root to tip, linear between, in the groom's unit:
+    /// one for the same width all along, none for strands without a width.
+    pub widths: Vec<f64>,
     /// Metres in one unit of length, where it is known.
     pub unit: Option<f64>,
     /// The axis that is up, where it is known.
@@ -102,6 +105,14 @@ pub enum BuildError {
     /// `sigma` is no positive number.
     #[error("the sigma of instancing is {0}, expected a number above 0")]
     Sigma(f64),
+    /// A width that is no length.
+    #[error("width {index} is {width}, expected a number from 0")]
+    Width {
+        /// Which of the widths, from 0.
+        index: usize,
+        /// What it is.
+        width: f64,
+    },
     /// The chain cannot be run.
     #[error(transparent)]
     Chain(#[from] ChainError),
@@ -139,6 +150,7 @@ impl ProceduralGroom {
             roots,
             instances: None,
             numbers: Vec::new(),
+            widths: Vec::new(),
             unit: None,
             up: None,
         };
@@ -253,6 +265,10 @@ impl ProceduralGroom {
                 Err(BuildError::NoGuide { what, index, guide, guides })
             })
         };
+        let wrong = |width: &f64| !(0.0 <= *width && width.is_finite());
+        if let Some(index) = self.widths.iter().position(wrong) {
+            return Err(BuildError::Width { index, width: self.widths[index] });
+        }
         named("operator guide", &self.operator_guides, guides)?;
         named("strand", &self.operator_of, self.operator_guides.len())?;
         if let Some(instances) = &self.instances {
@@ -305,8 +321,31 @@ impl ProceduralGroom {
         Ok(strands)
     }
 
+    /// Gives strands the mean [width](names::WIDTH), from root to tip, of another groom's strands;
+    /// none where that has none.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use tress_geometry::{Column, Groom, Strands, names};
+    /// use tress_procedural::{EvenStrands, ProceduralGroom, Roots};
+    ///
+    /// let strands = Strands::from_counts([2], vec![DVec3::ZERO, DVec3::Z])?;
+    /// let guides = EvenStrands::try_from(&strands)?;
+    /// let mut given = Groom::new(strands);
+    /// given.insert_point_attribute(names::WIDTH, Column::scalar(vec![0.07, 0.03]))?;
+    /// let roots = Roots { positions: vec![DVec3::X], uv: None };
+    /// let mut groom = ProceduralGroom::new(guides, roots)?;
+    /// groom.take_widths(&given);
+    /// let built = groom.build_groom()?;
+    /// assert_eq!(built.strand_values(names::WIDTH), Some(vec![0.05]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn take_widths(&mut self, groom: &Groom) {
+        self.widths = widths::of(groom);
+    }
+
     /// The strands as a groom, with unit and up axis, the operator guide of each as its
-    /// [group](names::GROUP) and its texture coordinates.
+    /// [group](names::GROUP), its texture coordinates and its [width](names::WIDTH).
     ///
     /// # Errors
     ///
@@ -317,6 +356,11 @@ impl ProceduralGroom {
         let row_each = "one row was made for each strand";
         let groups = self.operator_of.iter().map(|&guide| i64::from(guide)).collect();
         groom.insert_strand_attribute(names::GROUP, Column::Int(groups)).expect(row_each);
+        if !self.widths.is_empty() {
+            let (strands, points) = (self.roots.len(), self.guides.points_each());
+            let column = widths::column(&self.widths, strands, points);
+            groom.insert_point_attribute(names::WIDTH, column).expect("as many each as points");
+        }
         if let Some(uv) = &self.roots.uv {
             let column = Column::Float { components: 2, values: uv.concat() };
             groom.insert_strand_attribute(names::ROOT_UV, column).expect(row_each);

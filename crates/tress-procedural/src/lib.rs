@@ -22,6 +22,7 @@ mod numbers;
 mod operators;
 mod surface;
 pub mod synthetic;
+mod widths;
 
 pub use chain::{Bound, Chain, ChainError, Gradients};
 pub use even::{EvenError, EvenStrands};

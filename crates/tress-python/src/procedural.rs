@@ -19,6 +19,7 @@ use crate::plain::{data, report};
 ///         as {"Clump": {"profile": 1.5}}, or the text of a list in RON.
 ///     seed: Where random numbers come from.
 ///     instancing: How strands choose guides: {"Gaussian": {"neighbors": n, "sigma": s}}.
+///     widths: Widths of every strand at places even from root to tip, linear between.
 ///
 /// Example:
 ///     >>> groom = tress.ProceduralGroom(guides, roots, [{"Clump": {"profile": 1.5}}])
@@ -30,13 +31,14 @@ pub(crate) struct ProceduralGroom(pub(crate) Inner);
 #[pymethods]
 impl ProceduralGroom {
     #[new]
-    #[pyo3(signature = (guides, roots, operators=None, *, seed=0, instancing=None))]
+    #[pyo3(signature = (guides, roots, operators=None, *, seed=0, instancing=None, widths=None))]
     fn new(
         guides: &Bound<'_, PyAny>,
         roots: &Bound<'_, PyAny>,
         operators: Option<&Bound<'_, PyAny>>,
         seed: u64,
         instancing: Option<&Bound<'_, PyAny>>,
+        widths: Option<Vec<f64>>,
     ) -> PyResult<Self> {
         let Shaped { shape, values } = floats(guides, "guides")?;
         let &[_, each, 3] = &shape[..] else {
@@ -46,6 +48,7 @@ impl ProceduralGroom {
         let roots = Roots { positions: vectors(roots, "roots")?, uv: None };
         let mut groom = Inner::new(guides.map_err(refused)?, roots).map_err(refused)?;
         groom.seed = seed;
+        groom.widths = widths.unwrap_or_default();
         if let Some(operators) = operators {
             groom.chain.operators = data(operators, "operators")?;
         }

@@ -473,6 +473,9 @@ def test_a_procedural_groom_is_built_the_same_every_time(tmp_path):
     assert np.array_equal(groom.guides.positions.reshape(2, 20, 3), guides)
     by_text = tress.ProceduralGroom(guides, roots, "[Clump(profile: 1.5)]", seed=3)
     assert "1.5" in repr(by_text.operators)
+    tapered = tress.ProceduralGroom(guides, roots, widths=[0.3, 0.1]).build()
+    width = tapered.point_attributes["width"].reshape(50, 20)
+    assert np.allclose(width, np.linspace(0.3, 0.1, 20))
     for wrong in ([{"Clmp": {}}], [{"Clump": {"profil": 1}}], "[Clump(]"):
         with pytest.raises(tress.TressError):
             tress.ProceduralGroom(guides, roots, wrong)

@@ -149,7 +149,7 @@ fn say(study: &Study, report: &mut Report) {
     say_defects(&study.defects, report);
     say_measures(summary, study.groom.unit, report);
     let line = |q: Option<_>, unit: &str| spread(q, &format!(" {unit}"));
-    report.say("pitch", line(summary.pitch, &units.own()));
+    report.say("pitch", line(summary.pitch, &units.behind_numbers()));
     report.say("frequency", line(summary.frequency, &format!("turns/{} of axis", units.own())));
     report.say("curl index", spread(summary.curl_index, ""));
     report.say("circularity", spread(summary.circularity, ""));

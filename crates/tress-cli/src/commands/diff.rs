@@ -66,7 +66,7 @@ pub(crate) fn run(args: &DiffArgs, everywhere: &Everywhere) -> Result<Report, Fa
     let apart = compare([&a.groom, &b.groom], [&a.analysis, &b.analysis]);
     report.set("comparison", &apart);
     report.set("summaries", [&a.summary, &b.summary]);
-    say(&apart, &a.units.own(), &mut report);
+    say(&apart, &a.units.behind_numbers(), &mut report);
     let from = view(args.view);
     if let Some(file) = &args.png {
         progress.stage(format!("drawing {}", file.display()));
@@ -78,7 +78,7 @@ pub(crate) fn run(args: &DiffArgs, everywhere: &Everywhere) -> Result<Report, Fa
         let names = [&args.a, &args.b].map(|path| {
             path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned())
         });
-        let lines = lines(&apart, &a.units.own());
+        let lines = lines(&apart, &a.units.behind_numbers());
         tress::io::write_bytes(file, sheet::page_of(&a, &b, &names, &lines, from)?.as_bytes())?;
         report.say("wrote", file.display());
     }

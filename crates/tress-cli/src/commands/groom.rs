@@ -44,6 +44,11 @@ impl GroomArgs {
         }
     }
 
+    /// Whether it works on a share of the strands.
+    pub(super) fn shares(&self) -> bool {
+        matches!(self.command, GroomCommand::Build(_))
+    }
+
     /// Choices of formats, where the command writes strands.
     pub(super) fn format(&self) -> Option<&FormatArgs> {
         match &self.command {

@@ -25,15 +25,14 @@ pub(crate) struct InfoArgs {
 pub(crate) fn run(args: &InfoArgs, everywhere: &Everywhere) -> Result<Report, Failure> {
     let progress = Progress::new(everywhere);
     let mut report = Report::default();
+    let model = source::share_of(source::read(&args.input, &progress)?, everywhere);
     let format = Format::from_path(&args.input)?;
     report.set("input", &args.input);
     report.set("format", format.description());
     report.line(format!("{} ({})", args.input.display(), format.description()));
-    let model = source::read(&args.input, &progress)?;
     progress.stage("measuring");
     match model {
         Model::Polylines(groom) => {
-            let groom = source::share(groom, everywhere);
             say_polylines(&groom, &mut report);
             say_space(groom.unit, groom.up, &mut report);
             say_measures(&Analysis::of(&groom).summary(), groom.unit, &mut report);

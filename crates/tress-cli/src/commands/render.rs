@@ -107,11 +107,8 @@ impl Subject {
         everywhere: &Everywhere,
         progress: &Progress,
     ) -> Result<Self, Failure> {
-        let model = source::read(&args.input, progress)?;
-        let model = match model {
-            Model::Polylines(groom) => {
-                Model::Polylines(in_space(source::share(groom, everywhere), &args.space))
-            }
+        let model = match source::share_of(source::read(&args.input, progress)?, everywhere) {
+            Model::Polylines(groom) => Model::Polylines(in_space(groom, &args.space)),
             helices @ Model::Helices(_) => helices,
         };
         match &args.color_by {

@@ -4,8 +4,6 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use serde_json::Value;
-
 use crate::bench::Bench;
 
 fn text(path: &Path) -> String {
@@ -16,8 +14,8 @@ fn text(path: &Path) -> String {
 fn analyze_says_and_writes_what_a_groom_is_like() {
     let bench = Bench::new();
     let line = "analyze groom.obj --unit cm --csv strands.csv --csv-along along.csv \
-                --csv-plots plots.csv --plot plots.svg --quantity beta,radius --json";
-    let json: Value = serde_json::from_str(&bench.done(line)).expect("JSON");
+                --csv-plots plots.csv --plot plots.svg --quantity beta,radius";
+    let json = bench.json(line);
     let radius = json["summary"]["coil_radius"]["median"].as_f64().expect("coils have a radius");
     assert!((0.4..0.7).contains(&radius), "coil radius {radius}");
     let millimetres = json["coil_diameter_mm"].as_f64().expect("the unit is known");
@@ -43,7 +41,7 @@ fn analyze_says_and_writes_what_a_groom_is_like() {
 fn wisps_are_as_many_as_the_guides_that_hairs_were_grown_on() {
     let bench = crate::growing::bench();
     bench.done("grow guides.obj hair.obj --scalp scalp.obj --count 200");
-    let json: Value = serde_json::from_str(&bench.done("analyze hair.obj --json")).expect("JSON");
+    let json = bench.json("analyze hair.obj");
     let wisps = &json["wisps"];
     let (many, inside) = (wisps["wisps"].as_u64(), wisps["strands_in_wisps"].as_u64());
     let (many, inside) = many.zip(inside).expect("numbers");
@@ -53,8 +51,7 @@ fn wisps_are_as_many_as_the_guides_that_hairs_were_grown_on() {
 #[test]
 fn diff_says_how_far_two_grooms_are_apart() {
     let bench = Bench::new();
-    let same: Value =
-        serde_json::from_str(&bench.done("diff groom.obj groom.obj --json")).expect("JSON");
+    let same = bench.json("diff groom.obj groom.obj");
     assert_eq!(same["comparison"]["nearest"]["greatest"], 0.0);
     assert_eq!(same["comparison"]["distributions"]["spectrum"], 0.0);
     bench.done("recoil groom.obj wider.obj --radius 1.3");

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
+use serde_json::Value;
 use tress::geometry::Groom;
 use tress::io::{Model, WriteOptions};
 use tress_fixtures::{PatchOptions, coily_patch};
@@ -51,6 +52,12 @@ impl Bench {
         let errors = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.success() && errors.is_empty(), "tress {line}: {errors}");
         String::from_utf8(output.stdout).expect("reports are text")
+    }
+
+    /// The report for programs of a run that must succeed.
+    pub(crate) fn json(&self, line: &str) -> Value {
+        let text = self.done(&format!("{line} --json"));
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("tress {line}: {error}\n{text}"))
     }
 
     /// Runs `tress`, which must fail with this status and one line on standard error.

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use serde_json::Value;
+use tress::geometry::{Column, names};
 
 use crate::bench::Bench;
 
@@ -39,6 +39,26 @@ fn a_groom_is_found_built_and_edited() {
     assert!(String::from_utf8(bytes("edited.ron")).expect("RON is text").contains("7.5"));
     bench.done("groom build edited.ron edited.obj");
     assert_ne!(bytes("strands.obj"), bytes("edited.obj"));
+}
+
+#[test]
+fn strands_are_as_wide_as_the_guides_or_as_the_file_says() {
+    let bench = Bench::new();
+    let mut guides = bench.groom("groom.obj").select(&[0, 6, 12, 18]);
+    let widths = Column::scalar(vec![0.25; guides.strands().points().len()]);
+    guides.insert_point_attribute(names::WIDTH, widths).expect("one each");
+    bench.write("guides.usda", &guides);
+    bench.done("groom new guides.usda groom.ron --roots groom.obj --points 30");
+    let built = || {
+        bench.done("groom build groom.ron strands.usda");
+        bench.groom("strands.usda").strand_values(names::WIDTH).expect("a width")
+    };
+    assert_eq!(built(), vec![0.25; 20]);
+    change(&bench, "0.25,", "1.0, 0.5");
+    assert!(built().iter().all(|width| (width - 0.75).abs() < 1e-6));
+    change(&bench, "1.0, 0.5", "1.0, -0.5");
+    let error = bench.fails("groom build groom.ron strands.usda", 1);
+    assert!(error.contains("width 1 is -0.5, expected a number from 0"), "{error}");
 }
 
 #[test]
@@ -205,7 +225,7 @@ fn strands_are_blended_over_the_scalp() {
 fn json_holds_parameters_and_history() {
     let bench = fitted("");
     let line = "groom fit groom.obj found.ron --operators scale --guides 4 --options quick.ron";
-    let json: Value = serde_json::from_str(&bench.done(&format!("{line} --json"))).expect("JSON");
+    let json = bench.json(line);
     assert_eq!(json["strands"], 20);
     assert!(json["operators"][0]["Scale"]["random"].is_number());
     assert!(json["history"].as_array().is_some_and(|history| !history.is_empty()));

@@ -29,8 +29,8 @@ fn a_tenth_of_the_fits_fills_the_whole() {
     let bench = bench();
     let text = bench.done("helicoid fit arcs.obj arcs.ron --pieces 2");
     assert!(text.contains("30 strands, 60 pieces"), "{text}");
-    let line = "helicoid fill arcs.ron full.obj --roots arcs.obj --keep 0.2 --points 25 --json";
-    let json: Value = serde_json::from_str(&bench.done(line)).expect("JSON");
+    let line = "helicoid fill arcs.ron full.obj --roots arcs.obj --keep 0.2 --points 25";
+    let json = bench.json(line);
     assert_eq!((&json["guides_used"], &json["replaced"]), (&Value::from(6), &Value::from(0)));
     let (before, after) = (bench.groom("arcs.obj"), bench.groom("full.obj"));
     for (a, b) in before.strands().iter().zip(after.strands().iter()) {

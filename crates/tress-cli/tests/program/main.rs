@@ -12,7 +12,6 @@ mod switchback;
 use std::fs;
 use std::path::Path;
 
-use serde_json::Value;
 use tress::geometry::glam::DVec3;
 use tress::geometry::{Groom, Strands};
 use tress::io::Model;
@@ -30,7 +29,7 @@ fn info_says_what_a_groom_is_like() {
     for word in ["strands", "turns", "coil radius", "handedness", "none found"] {
         assert!(text.contains(word), "{word:?} is missing in:\n{text}");
     }
-    let json: Value = serde_json::from_str(&bench.done("info groom.obj --json")).expect("JSON");
+    let json = bench.json("info groom.obj");
     assert_eq!(json["strands"], 20);
     let radius = json["summary"]["coil_radius"]["median"].as_f64().expect("coils have a radius");
     assert!((0.4..0.7).contains(&radius), "coil radius {radius}");
@@ -79,6 +78,11 @@ fn shares_joined_are_the_whole() {
         bench.done(&format!("merge part1.{end} part2.{end} part3.{end} joined.{end}"));
         let path = |name: &str| bench.path(&format!("{name}.{end}"));
         assert_eq!(bytes(&path("joined")), bytes(&path("whole")), "{command}");
+        let strands = |file: &str, more: &str| {
+            bench.json(&format!("info {file}.{end} {more}"))["strands"].as_u64()
+        };
+        let shares: Vec<_> = (1..=3).map(|i| strands("whole", &format!("--shard {i}/3"))).collect();
+        assert_eq!(shares, ["part1", "part2", "part3"].map(|part| strands(part, "")));
     }
 }
 
@@ -118,6 +122,8 @@ fn strands_that_are_no_curves_pass_through_and_are_counted() {
 fn mistakes_are_told_in_one_line_and_leave_files_alone() {
     let bench = Bench::new();
     fs::create_dir(bench.path("folder.obj")).expect("a folder");
+    fs::create_dir(bench.path("folder")).expect("a folder");
+    fs::write(bench.path("notes.docx"), "").expect("a file");
     fs::write(bench.path("broken.data"), [9, 0, 0, 0, 0xff]).expect("a file");
     fs::write(bench.path("old.hair"), "old").expect("a file");
     fs::write(bench.path("broken.ron"), "(joints: [])").expect("a file");
@@ -126,7 +132,8 @@ fn mistakes_are_told_in_one_line_and_leave_files_alone() {
     for (line, status, word) in [
         ("info nowhere.obj", 1, "nowhere.obj: no such file"),
         ("info folder.obj", 1, "is a directory"),
-        ("info groom.docx", 1, "unknown extension .docx"),
+        ("info folder", 1, "is a directory"),
+        ("info notes.docx", 1, "unknown extension .docx"),
         ("info broken.data", 1, "broken.data: byte"),
         ("convert groom.obj groom.obj", 1, "--in-place"),
         ("convert groom.obj nowhere/out.hair", 1, "nowhere/out.hair: there is no folder nowhere"),
@@ -164,6 +171,8 @@ fn mistakes_are_told_in_one_line_and_leave_files_alone() {
         ("sample groom.obj out.obj --points 9 --spacing 1", 2, "cannot be used with"),
         ("info groom.obj --threads 0", 2, "1 to 1024"),
         ("info groom.obj --shard 3/2", 2, "I/N"),
+        ("groom fit groom.obj out.ron --shard 1/2", 2, "needs all strands"),
+        ("merge groom.obj out.obj --shard 1/2", 2, "needs all strands"),
         ("groom groom.obj", 2, "unrecognized subcommand"),
         ("", 2, "Usage"),
     ] {
@@ -216,9 +225,8 @@ fn quiet_says_nothing_and_json_says_one_object() {
         "armature groom.obj g.ron --clusters 2",
         "sculpt groom.obj h.obj --pose g.ron",
     ] {
-        let text = bench.done(&format!("{command} --json"));
-        let json: Value = serde_json::from_str(&text).expect("one JSON value");
-        assert!(json.is_object() && json["seconds"].is_number(), "{command}: {text}");
+        let json = bench.json(command);
+        assert!(json.is_object() && json["seconds"].is_number(), "{command}: {json}");
     }
 }
 
@@ -246,8 +254,7 @@ fn a_pose_moves_the_tips_of_its_cluster_and_no_length() {
     assert_ne!(rest, moved, "a joint can be moved by its translate:\n{rest}");
     fs::write(bench.path("moved.ron"), moved).expect("a file");
     bench.done("sculpt groom.tress down.tress --pose moved.ron");
-    let json = bench.done("sculpt groom.tress down.tress --pose moved.ron --json");
-    let json: Value = serde_json::from_str(&json).expect("JSON");
+    let json = bench.json("sculpt groom.tress down.tress --pose moved.ron");
     assert_eq!(json["sculpt"]["moved"], 20);
     let helices = |name: &str| match tress::io::read(bench.path(name)).expect("a file") {
         Model::Helices(helices) => helices,
@@ -266,8 +273,8 @@ fn wider_coils_keep_what_they_are_told_to() {
     let bench = Bench::new();
     bench.done("fit groom.obj groom.tress --elements 100");
     for (keep, kept) in [("length", "length"), ("turns", "turns")] {
-        let line = format!("recoil groom.tress wide.tress --radius 1.3 --keep {keep} --json");
-        let json: Value = serde_json::from_str(&bench.done(&line)).expect("JSON");
+        let line = format!("recoil groom.tress wide.tress --radius 1.3 --keep {keep}");
+        let json = bench.json(&line);
         let median = |when: &str, of: &str| json[when][of]["median"].as_f64().expect("a number");
         let ratio = median("after", "coil_radius") / median("before", "coil_radius");
         assert!((1.2..1.4).contains(&ratio), "radius x {ratio}");

@@ -23,7 +23,7 @@ fn on_its_way() -> Bench {
 fn every_frame_gets_the_same_choices() {
     let bench = on_its_way();
     let line = "ruffle g.%04d.obj r%d.obj --elements 40 --probability 0.3 --groups clusters:3";
-    let json: Value = serde_json::from_str(&bench.done(&format!("{line} --json"))).expect("JSON");
+    let json = bench.json(line);
     let frames: Vec<_> = json["frames"].as_array().expect("frames").iter().collect();
     assert_eq!(frames.len(), 3);
     assert_eq!((&frames[0]["frame"], &frames[2]["frame"]), (&Value::from(8), &Value::from(110)));

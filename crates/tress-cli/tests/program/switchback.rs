@@ -2,17 +2,14 @@
 
 use std::fs;
 
-use serde_json::Value;
-
 use crate::bench::Bench;
 
 #[test]
 fn a_switchback_is_made_of_the_size_asked_for() {
     let bench = Bench::new();
-    let json = bench.done("switchback make one.tress --frequency 0.4 --radius 0.5 --json");
-    let report: Value = serde_json::from_str(&json).expect("JSON");
+    let report = bench.json("switchback make one.tress --frequency 0.4 --radius 0.5");
     assert!(0.0 < report["room"].as_f64().expect("a room"));
-    let info: Value = serde_json::from_str(&bench.done("info one.tress --json")).expect("JSON");
+    let info = bench.json("info one.tress");
     assert_eq!(info["strands"], 1);
     let radius = info["summary"]["coil_radius"]["median"].as_f64().expect("a coil");
     assert!((radius - 0.5).abs() < 0.01, "{radius}");
@@ -26,8 +23,8 @@ fn a_switchback_is_made_of_the_size_asked_for() {
 #[test]
 fn strands_keep_their_length_and_root() {
     let bench = Bench::new();
-    let line = "switchback insert groom.obj changed.obj --at 0.5 --json";
-    let report: Value = serde_json::from_str(&bench.done(line)).expect("JSON");
+    let line = "switchback insert groom.obj changed.obj --at 0.5";
+    let report = bench.json(line);
     let placed = report["switchbacks"].as_array().expect("a list").len();
     assert!(0 < placed, "{report}");
     let (before, after) = (bench.groom("groom.obj"), bench.groom("changed.obj"));

@@ -120,6 +120,7 @@ pub(super) fn decode(
     chain: Chain,
     seed: u64,
     instancing: Instancing,
+    widths: Vec<f64>,
 ) -> Result<ProceduralGroom, DataError> {
     let arrays = SafeTensors::deserialize(bytes)?;
     let (_, header) = SafeTensors::read_metadata(bytes)?;
@@ -146,6 +147,7 @@ pub(super) fn decode(
         operator_of: stored(OPERATOR_OF)?.1,
         instances: instances(&arrays)?,
         numbers: Vec::new(),
+        widths,
         unit: space.unit,
         up: space.up,
         chain,

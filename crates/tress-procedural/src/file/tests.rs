@@ -17,6 +17,7 @@ fn groom() -> ProceduralGroom {
     let mut groom = ProceduralGroom::new(guides, Roots { positions, uv }).expect("sound guides");
     groom.seed = 3;
     groom.unit = Some(0.01);
+    groom.widths = vec![0.008, 0.007, 0.002];
     groom.up = Some(tress_geometry::UpAxis::Y);
     groom.chain.operators = vec![
         Operator::Scale(Scale { random: 0.3 }),

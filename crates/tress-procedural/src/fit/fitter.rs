@@ -14,7 +14,7 @@ use super::{
 use crate::groom::spacing;
 use crate::{
     BuildError, Chain, EvenError, EvenStrands, FileError, Instances, Instancing, Operator,
-    ProceduralGroom, Roots,
+    ProceduralGroom, Roots, widths,
 };
 
 /// Why a fit cannot begin, go on or be taken up again.
@@ -74,6 +74,7 @@ pub struct Fitter {
     pub(super) groom: Option<ProceduralGroom>,
     uv: Option<Vec<[f64; 2]>>,
     space: (Option<f64>, Option<UpAxis>),
+    widths: Vec<f64>,
     head: Option<Mesh>,
 }
 
@@ -110,10 +111,20 @@ impl Fitter {
         let state = State::new(&targets, &chain, &options);
         let flaws = find_flaws(&targets, &options.flaws);
         let curls = chain.operators.iter().any(|operator| matches!(operator, Operator::Curl(_)));
-        let courses = curls.then(|| courses(&targets));
-        let space = (target.unit, target.up);
-        let (groom, head) = (None, None);
-        Ok(Self { targets, courses, kept, flaws, options, chain, state, groom, uv, space, head })
+        Ok(Self {
+            courses: curls.then(|| courses(&targets)),
+            space: (target.unit, target.up),
+            widths: widths::of(target),
+            groom: None,
+            head: None,
+            targets,
+            kept,
+            flaws,
+            options,
+            chain,
+            state,
+            uv,
+        })
     }
 
     /// The head that hair grows on, in the target's unit: no strand is given to an operator guide
@@ -231,6 +242,7 @@ impl Fitter {
             groom.instancing = Instancing::Gaussian { neighbors, sigma };
         }
         (groom.unit, groom.up) = self.space;
+        groom.widths.clone_from(&self.widths);
         if let Some(head) = &self.head {
             avoid_head(&mut groom, head)?;
         }

@@ -379,6 +379,7 @@ class ProceduralGroom:
         *,
         seed: int = 0,
         instancing: Mapping[str, Any] | str | None = None,
+        widths: Sequence[float] | None = None,
     ) -> None: ...
     @staticmethod
     def read(path: Path) -> ProceduralGroom: ...

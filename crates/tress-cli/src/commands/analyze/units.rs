@@ -30,6 +30,15 @@ impl Units {
         }
     }
 
+    /// The same behind a number.
+    pub(crate) fn behind_numbers(self) -> String {
+        match self.metres {
+            Some(1.0 | 0.01 | 0.001) => self.own(),
+            Some(metres) => format!("units of {metres} m"),
+            None => "units".into(),
+        }
+    }
+
     /// For radii and pitches: millimetres.
     pub(crate) fn coil(self) -> Shown {
         self.length(1e3, "mm")
@@ -84,6 +93,8 @@ mod tests {
         assert!((rate.factor - 1.0 / 2.54).abs() < 1e-12 && rate.name == "turns/cm");
         let unknown = Units::new(None);
         assert_eq!((unknown.coil().factor, unknown.own()), (1.0, "unit".into()));
+        let behind = [Some(0.01), Some(0.0254), None].map(|m| Units::new(m).behind_numbers());
+        assert_eq!(behind, ["cm", "units of 0.0254 m", "units"]);
         assert_eq!(unknown.per_length("").name, "1/unit");
     }
 }

@@ -64,6 +64,7 @@ pub(super) fn run(args: &NewArgs, everywhere: &Everywhere) -> Result<Report, Fai
     let mut groom = ProceduralGroom::new(guides, roots)?;
     groom.seed = everywhere.seed;
     (groom.unit, groom.up) = (given.unit, given.up);
+    groom.take_widths(&given);
     groom.guide_uv = uv(&given.select(&kept));
     instance(args, &mut groom)?;
     groom.check()?;
