@@ -9,6 +9,8 @@
 //! Strands may differ in their number of elements: an element is drawn among the strands that have
 //! one with its index, and no strand changes its number of elements.
 
+use std::collections::BTreeMap;
+
 use rand::RngExt;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -84,7 +86,7 @@ impl RuffleOptions {
     }
 }
 
-/// Ruffles a groom; `groups[i]` is the group of strand `i`.
+/// Ruffles a groom; `groups[i]` is the group of strand `i`, any number.
 ///
 /// The same seed draws the same strands whatever the probability: raising it replaces further
 /// elements and leaves those already replaced as they were.
@@ -174,22 +176,21 @@ pub(crate) fn mix(a: &Element, b: &Element, t: f64) -> Element {
 
 /// The strands of each group, those with the most elements first.
 struct Donors {
-    groups: Vec<Vec<u32>>,
+    groups: BTreeMap<u32, Vec<u32>>,
     unequal: bool,
 }
 
 impl Donors {
     fn new(groom: &HelixGroom, groups: &[u32]) -> Self {
-        let n_groups = groups.iter().max().map_or(0, |&most| most as usize + 1);
-        let mut members = vec![Vec::new(); n_groups];
+        let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for (i, &group) in (0..).zip(groups) {
             if groom.kept_polyline(i as usize).is_none() {
-                members[group as usize].push(i);
+                members.entry(group).or_default().push(i);
             }
         }
         let count = |i: &u32| groom.strand(*i as usize).elements.len();
         let mut unequal = false;
-        for group in &mut members {
+        for group in members.values_mut() {
             group.sort_by_key(|i| std::cmp::Reverse(count(i)));
             unequal |= group.first().map(count) != group.last().map(count);
         }
@@ -197,13 +198,13 @@ impl Donors {
     }
 
     fn group(&self, group: u32) -> &[u32] {
-        &self.groups[group as usize]
+        self.groups.get(&group).map_or(&[], Vec::as_slice)
     }
 
     fn report(&self) -> RuffleReport {
         RuffleReport {
-            groups: self.groups.iter().filter(|group| !group.is_empty()).count(),
-            alone: self.groups.iter().filter(|group| group.len() == 1).count(),
+            groups: self.groups.len(),
+            alone: self.groups.values().filter(|group| group.len() == 1).count(),
             unequal: self.unequal,
             ..RuffleReport::default()
         }

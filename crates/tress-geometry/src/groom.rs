@@ -60,8 +60,11 @@ pub enum GroomError {
         /// Rows there should be.
         expected: usize,
     },
-    /// A kept polyline that names no strand, or not in ascending order.
-    #[error("kept polyline {entry} stands for strand {strand}, which is not there or out of order")]
+    /// A kept polyline that names no strand, one with elements, or not in ascending order.
+    #[error(
+        "kept polyline {entry} stands for strand {strand}, which is not there, has elements or is \
+         out of order"
+    )]
     Kept {
         /// Which of the kept polylines.
         entry: usize,

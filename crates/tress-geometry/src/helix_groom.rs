@@ -42,7 +42,8 @@ pub struct HelixGroom {
     pub unit: Option<f64>,
     /// The axis that is up, where it is known.
     pub up: Option<UpAxis>,
-    // Invariant: one root a strand, attribute rows match, kept strands ascend and are there.
+    // Invariant: one root a strand, attribute rows match, kept strands ascend, are there
+    // and have no elements.
     roots: Vec<Frame>,
     elements: Strands<Element>,
     strand_attributes: Attributes,
@@ -67,7 +68,7 @@ impl HelixGroom {
     /// # Errors
     ///
     /// If there is not one root a strand, if an attribute table has not one row a strand or joint,
-    /// or if a kept polyline stands for no strand.
+    /// or if a kept polyline stands for no strand or for one with elements.
     pub fn with_attributes(
         roots: Vec<Frame>,
         elements: Strands<Element>,
@@ -81,7 +82,7 @@ impl HelixGroom {
         check_rows("strands", &strand_attributes, elements.len())?;
         check_rows("joints", &joint_attributes, elements.points().len() + elements.len())?;
         check_rows("kept points", &kept.point_attributes, kept.polylines.points().len())?;
-        check_kept(&kept, elements.len())?;
+        check_kept(&kept, &elements)?;
         let (unit, up) = (None, None);
         Ok(Self { unit, up, roots, elements, strand_attributes, joint_attributes, kept })
     }
@@ -268,11 +269,11 @@ impl HelixGroom {
     }
 }
 
-fn check_kept(kept: &Kept, strands: usize) -> Result<(), GroomError> {
+fn check_kept(kept: &Kept, elements: &Strands<Element>) -> Result<(), GroomError> {
     let mut least = 0;
     for (entry, &strand) in kept.strands.iter().enumerate() {
-        let there = (strand as usize) < strands && entry < kept.polylines.len();
-        if strand < least || !there {
+        let there = (strand as usize) < elements.len() && entry < kept.polylines.len();
+        if strand < least || !there || !elements.strand(strand as usize).is_empty() {
             return Err(GroomError::Kept { entry, strand });
         }
         least = strand + 1;
@@ -337,7 +338,8 @@ mod tests {
     }
 
     #[test]
-    fn kept_strands_out_of_order_or_out_of_range_are_refused() {
+    fn kept_strands_that_cannot_be_are_refused() {
+        assert_eq!(parts(vec![2]), Err(GroomError::Kept { entry: 0, strand: 2 }));
         assert_eq!(parts(vec![3]), Err(GroomError::Kept { entry: 0, strand: 3 }));
         assert_eq!(parts(vec![1, 1]), Err(GroomError::Kept { entry: 1, strand: 1 }));
         assert_eq!(parts(vec![1, 0]), Err(GroomError::Kept { entry: 1, strand: 0 }));

@@ -35,7 +35,8 @@ impl Default for Tracing {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TraceError {
-    /// The line runs into the line where its field has no direction.
+    /// The line runs into the line where its field has no direction, or winds too tightly to be
+    /// followed.
     ///
     /// ```
     /// use tress_geometry::Frame;
@@ -48,7 +49,9 @@ pub enum TraceError {
     /// let TraceError::Singular { arc_length, .. } = error else { unreachable!() };
     /// assert!((arc_length - 0.5).abs() < 1e-3);
     /// ```
-    #[error("piece {piece} runs into its singular line at arc length {arc_length}")]
+    #[error(
+        "piece {piece} runs into its singular line, or winds too tightly, at arc length {arc_length}"
+    )]
     Singular {
         /// Which piece it is, from 0.
         piece: usize,
@@ -118,7 +121,7 @@ pub(crate) struct Place {
     pub(crate) theta: f64,
 }
 
-/// The arc length at which a line runs into its singular line.
+/// The arc length at which a line runs into its singular line, or can be followed no longer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Singular(pub(crate) f64);
 

@@ -96,6 +96,9 @@ pub fn solve(
     }
     let named = |source| SculptError::Control { strand: 0, source };
     prepared.prepare(strand, controls).map_err(named)?;
+    if strand.elements.is_empty() || controls.is_empty() {
+        return Ok((strand.elements.to_vec(), Report::UNTOUCHED));
+    }
     let mut pose = strand.elements.to_vec();
     let report = match options.solver {
         Solver::Adam(adam) => {
@@ -116,9 +119,7 @@ pub fn solve(
                 unfinished: None,
             };
             let mut jobs = [job];
-            if !controls.is_empty() {
-                solve_all(&mut jobs, options);
-            }
+            solve_all(&mut jobs, options);
             let [Job { report, .. }] = jobs;
             report.unwrap_or(Report::UNTOUCHED)
         }

@@ -104,6 +104,8 @@ fn groups_and_strands_without_company_are_counted() {
     // Who is alone gets its own elements, which is no replacement.
     assert_eq!(same.strand(0).elements, groom.strand(0).elements);
     assert!(report.replaced <= 8 && !report.unequal);
+    let (far, _) = ruffle(&groom, &[7, u32::MAX, u32::MAX, 0], &options(1.0, 0), 4).expect("any");
+    assert_eq!(far, same);
 }
 
 #[test]

@@ -44,6 +44,9 @@ const D: [f64; 7] = [
 /// counted.
 const GREATEST_TURN: f64 = 1.5;
 
+/// Steps of a piece, at most: for two thousand turns, followed to a billionth.
+const MOST_STEPS: usize = 200_000;
+
 /// A step below this part of the length is stuck at the singular line.
 const LEAST_STEP: f64 = 1e-9;
 
@@ -66,6 +69,7 @@ pub(super) fn walk(
         next += 1;
     }
     let mut h = first_step(k, here, length);
+    let mut steps = 0;
     while s < length {
         let ends = length <= s + h * (1.0 + 1e-12);
         if ends {
@@ -88,9 +92,11 @@ pub(super) fn walk(
             (here, direction) = (tried.end, tried.stages[6]);
             s = if ends { length } else { s + h };
         }
+        steps += 1;
         h *= (0.9 * ratio.powf(-0.2)).clamp(0.2, 5.0);
         // A step that is not a number is no step either.
-        if s < length && (h.is_nan() || h <= LEAST_STEP * length) {
+        let stuck = h.is_nan() || h <= LEAST_STEP * length || MOST_STEPS <= steps;
+        if s < length && stuck {
             return Err(Singular(s));
         }
     }

@@ -1,5 +1,7 @@
 //! Switchbacks put into a groom, wisp by wisp.
 
+use std::collections::BTreeMap;
+
 use rand::RngExt;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -99,11 +101,11 @@ pub fn insert(
     if groups.len() != groom.len() {
         return Err(InsertGroomError::Groups { groups: groups.len(), strands: groom.len() });
     }
-    let places = places_by_group(groom, groups, placing, seed);
+    let places = places_by_group(groom, groups, placing, seed)?;
     let shapes = Shapes::new(*options);
     let changed: Vec<Changed> = (0..groom.len())
         .into_par_iter()
-        .map(|i| Changed::new(&groom.strand(i), &places[groups[i] as usize], &shapes))
+        .map(|i| Changed::new(&groom.strand(i), &places[&groups[i]], &shapes))
         .collect();
     let mut report = InsertReport::default();
     for (i, strand) in changed.iter().enumerate() {
@@ -111,6 +113,9 @@ pub fn insert(
     }
     Ok((assemble(groom, changed)?, report))
 }
+
+/// Places that are drawn for a strand, at most: far more than there is room for.
+const MOST_PLACES: f64 = 1e5;
 
 impl Placing {
     fn validate(&self) -> Result<(), InsertError> {
@@ -133,11 +138,15 @@ impl Placing {
         }
     }
 
-    /// The places on a wisp of this length, ascending.
-    fn places(&self, length: f64, mut rng: impl rand::Rng) -> Vec<f64> {
+    /// The places on a wisp of this length, ascending; an error where there are far too many.
+    fn places(&self, length: f64, mut rng: impl rand::Rng) -> Result<Vec<f64>, InsertError> {
         let mut places: Vec<f64> = match self {
             Self::ArcLengths(places) => places.clone(),
             Self::Shares(shares) => shares.iter().map(|share| share * length).collect(),
+            Self::Density(density) if MOST_PLACES < density * length => {
+                let (name, value) = ("the number of switchbacks on a strand", density * length);
+                return Err(InsertError::Option { name, value, expected: "100,000 at most" });
+            }
             Self::Density(density) => {
                 // Gaps of a Poisson process; none where nothing is asked for.
                 let mut s = 0.0;
@@ -150,7 +159,7 @@ impl Placing {
             }
         };
         places.sort_unstable_by(f64::total_cmp);
-        places
+        Ok(places)
     }
 }
 
@@ -160,18 +169,20 @@ fn places_by_group(
     groups: &[u32],
     placing: &Placing,
     seed: u64,
-) -> Vec<Vec<f64>> {
-    let n = groups.iter().max().map_or(0, |&most| most as usize + 1);
-    let mut lengths = vec![Vec::new(); n];
+) -> Result<BTreeMap<u32, Vec<f64>>, InsertError> {
+    let mut lengths: BTreeMap<u32, Vec<f64>> = BTreeMap::new();
     for (strand, &group) in groom.iter().zip(groups) {
-        lengths[group as usize].push(strand.length());
+        lengths.entry(group).or_default().push(strand.length());
     }
     let median = |mut lengths: Vec<f64>| {
         lengths.sort_unstable_by(f64::total_cmp);
         lengths.get(lengths.len() / 2).copied().unwrap_or(0.0)
     };
-    let places = lengths.into_iter().enumerate();
-    places.map(|(i, lengths)| placing.places(median(lengths), strand_rng(seed, i))).collect()
+    let places = lengths.into_iter().map(|(group, lengths)| {
+        let rng = strand_rng(seed, group as usize);
+        Ok((group, placing.places(median(lengths), rng)?))
+    });
+    places.collect()
 }
 
 /// A strand with its switchbacks.

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::synthetic::known;
+use crate::{Curl, Frizz};
 
 fn quick() -> ParameterOptions {
     ParameterOptions { strands: 600, slices: 24, ..ParameterOptions::default() }
@@ -45,6 +46,25 @@ fn a_curl_is_found_from_a_fifth_of_its_frequency() {
     assert!((found[0] / truth[0] - 1.0).abs() < 0.1, "radius {}", found[0]);
     assert!((found[1] / truth[1] - 1.0).abs() < 0.05, "frequency {}", found[1]);
     assert!((found[3] - truth[3]).abs() < 0.1, "start {}", found[3]);
+}
+
+/// The groom of waves is far from its valley where waves are as tight as its frizz and frizz as
+/// wide as its waves: no look at one parameter or pair leaves that, only another start.
+#[test]
+fn waves_are_found_from_where_frizz_has_taken_their_place() {
+    let (mut groom, targets, truth) = begun(0);
+    let [_, _, Operator::Curl(curl), Operator::Frizz(frizz)] = &mut groom.chain.operators[..]
+    else {
+        panic!("scale, clump, curl, frizz");
+    };
+    *curl = Curl { radius: 0.113, frequency: 0.389, random_frequency: 0.01, start: 0.99 };
+    *frizz = Frizz { frequency: 0.27, amplitude: 1.1 };
+    let sound: Vec<usize> = (0..targets.len()).collect();
+    let options = ParameterOptions { strands: 400, rounds: 1, ..quick() };
+    fit_parameters(&mut groom, &targets, &sound, &options, &mut |_, _| {}).expect("finite losses");
+    let (found, truth) = (groom.chain.operators[2].values(), truth[2].values());
+    assert!((found[0] / truth[0] - 1.0).abs() < 0.1, "radius {}", found[0]);
+    assert!((found[1] / truth[1] - 1.0).abs() < 0.05, "frequency {}", found[1]);
 }
 
 #[test]

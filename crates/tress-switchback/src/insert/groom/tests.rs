@@ -28,16 +28,21 @@ fn strands_of_a_wisp_get_theirs_at_the_same_places() {
     assert_eq!(places(0), places(1));
     assert_eq!(places(3), places(4));
     assert_ne!(places(0), places(3));
+    // Any number names a wisp.
+    let far: Vec<u32> = groups.iter().map(|group| group * u32::MAX).collect();
+    let (_, same) = insert(&groom, &far, &density, &InsertOptions::default(), 3).unwrap();
+    assert_eq!(same.placed[..3], report.placed[..3]);
     assert_eq!(report.asked, report.placed.len() + report.no_room + report.no_coil);
 }
 
 #[test]
 fn a_density_is_how_many_there_are_in_a_unit_of_length() {
-    let places = Placing::Density(0.5).places(4000.0, strand_rng(5, 0));
+    let places = |density| Placing::Density(density).places(4000.0, strand_rng(5, 0));
+    assert_eq!(places(0.0).expect("few"), [0.0; 0]);
+    let places = places(0.5).expect("few");
     assert!(places.is_sorted() && places.iter().all(|s| (0.0..4000.0).contains(s)));
     // 2000 are expected, with a deviation of 45.
     assert!((1800..2200).contains(&places.len()), "{}", places.len());
-    assert_eq!(Placing::Density(0.0).places(4000.0, strand_rng(5, 0)), [0.0; 0]);
 }
 
 #[test]
@@ -110,6 +115,7 @@ fn bad_input_is_refused() {
     for placing in [
         Placing::Density(-1.0),
         Placing::Density(f64::NAN),
+        Placing::Density(1e9),
         Placing::Shares(vec![0.5, 1.5]),
         Placing::ArcLengths(vec![f64::INFINITY]),
     ] {
