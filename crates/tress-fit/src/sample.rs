@@ -16,7 +16,8 @@ pub enum Sampling<'a> {
     Counts(&'a [usize]),
     /// As many as bring neighbours no farther apart than this along the strand.
     Spacing(f64),
-    /// So many in one turn of each strand's coil, and at least one an element.
+    /// So many in one turn of each strand's coil, at least one an element, and no more than 10,000
+    /// a strand: what turns more often is no hair.
     PerTurn(f64),
 }
 
@@ -86,6 +87,12 @@ pub enum SampleError {
     /// ```
     #[error(transparent)]
     TooMany(#[from] OffsetsError),
+    /// More points than the memory holds.
+    #[error("there is no memory for {points} points")]
+    NoMemory {
+        /// Points asked for.
+        points: usize,
+    },
 }
 
 /// Polylines along super-helices, points even in arc length, root and tip included.
@@ -115,7 +122,10 @@ pub fn sample(helices: &HelixGroom, how: &Sampling<'_>) -> Result<Groom, SampleE
     if u32::try_from(total).is_err() {
         return Err(OffsetsError::TooMany { points: total }.into());
     }
-    let mut strands = Strands::from_counts(counts, vec![DVec3::ZERO; total])?;
+    let mut points = Vec::new();
+    points.try_reserve_exact(total).map_err(|_| SampleError::NoMemory { points: total })?;
+    points.resize(total, DVec3::ZERO);
+    let mut strands = Strands::from_counts(counts, points)?;
     let polylines: Vec<&mut [DVec3]> = strands.iter_mut().collect();
     polylines.into_par_iter().enumerate().with_min_len(16).for_each(|(i, polyline)| match helices
         .kept_polyline(i)
@@ -126,6 +136,9 @@ pub fn sample(helices: &HelixGroom, how: &Sampling<'_>) -> Result<Groom, SampleE
     let groom = with_point_attributes(helices, strands);
     Ok(groom.in_space(helices.unit, helices.up))
 }
+
+/// Steps that a strand is cut into for its turns, at most.
+const MOST_BY_TURNS: f64 = 1e4;
 
 /// How many points each strand gets.
 fn counts(helices: &HelixGroom, how: &Sampling<'_>) -> Result<Vec<usize>, SampleError> {
@@ -147,7 +160,9 @@ fn counts(helices: &HelixGroom, how: &Sampling<'_>) -> Result<Vec<usize>, Sample
             Sampling::Points(points) => points,
             Sampling::Counts(counts) => counts[i],
             Sampling::Spacing(spacing) => steps(strand.length() / spacing) + 1,
-            Sampling::PerTurn(n) => steps(strand.turns() * n).max(strand.elements.len()) + 1,
+            Sampling::PerTurn(n) => {
+                steps((strand.turns() * n).min(MOST_BY_TURNS)).max(strand.elements.len()) + 1
+            }
         },
     };
     Ok(helices.iter().enumerate().map(own).collect())

@@ -9,7 +9,7 @@
 use glam::{DQuat, DVec3};
 use tress_fit::{SampleError as HelixSampleError, Sampling, sample};
 use tress_geometry::{
-    Attributes, Element, Frame, GroomError, HelixGroom, Kept, OffsetsError, Strands,
+    Attributes, Element, Frame, GroomError, HelixGroom, Kept, OffsetsError, Strands, SuperHelix,
 };
 
 use crate::fit::fit;
@@ -126,13 +126,21 @@ pub fn to_helices(hairs: &HelicoidGroom, per_piece: usize) -> Result<HelixGroom,
 /// Points a turn that a super-helix is sampled with for a fit.
 const POINTS_PER_TURN: f64 = 24.0;
 
+/// Points of a strand at most, which time grows with the square of: for 40 turns, where a piece of
+/// a p-helicoid follows one or two.
+const MOST_POINTS: f64 = 1000.0;
+
 /// Super-helices as p-helicoids: a fit to their positions.
 ///
 /// # Errors
 ///
 /// See [`BridgeError`].
 pub fn from_helices(helices: &HelixGroom, options: &FitOptions) -> Result<Fitted, BridgeError> {
-    let polylines = sample(helices, &Sampling::PerTurn(POINTS_PER_TURN))?;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let of_turns = |turns: f64| (turns * POINTS_PER_TURN).ceil().clamp(2.0, MOST_POINTS) as usize;
+    let count = |strand: SuperHelix<'_>| of_turns(strand.turns()).max(strand.elements.len() + 1);
+    let counts: Vec<usize> = helices.iter().map(count).collect();
+    let polylines = sample(helices, &Sampling::Counts(&counts))?;
     Ok(fit(&polylines, options)?)
 }
 

@@ -193,7 +193,7 @@ fn insert_shape(
     shapes: &Shapes,
 ) -> Result<(Vec<Element>, Placed), InsertError> {
     let length = strand.length();
-    if !(0.0..=length).contains(&arc_length) {
+    if !(length.is_finite() && (0.0..=length).contains(&arc_length)) {
         return Err(InsertError::OffStrand { arc_length, length });
     }
     let straightened = local::straighten(strand.elements);

@@ -1,5 +1,7 @@
 //! Grooms of any numbers at all: no layer panics, hangs or loses a strand.
 
+use proptest::prelude::*;
+use proptest::{collection, num};
 use tress::analysis::{Analysis, Quantity, Wisps, compare, defects, quantity, summarize};
 use tress::edit::{
     BlendSpace, Grouping, RecoilKeep, RecoilOptions, RuffleOptions, blend, groups, recoil, ruffle,
@@ -103,80 +105,68 @@ fn helices() -> Vec<(&'static str, HelixGroom)> {
     ]
 }
 
-#[test]
-fn polylines_are_analysed_and_pictured() {
-    for (name, groom) in grooms() {
-        let strands = groom.strands().len();
-        let analysis = Analysis::of(&groom);
-        assert!(analysis.summary().strands <= strands, "{name}");
-        assert_eq!(Wisps::of(&groom, &analysis).wisp.len(), strands, "{name}");
-        let _ = defects(&groom);
-        let _ = compare([&groom, &groom], [&analysis, &analysis]);
-        for of in Quantity::ALL {
-            let _ = analysis.values(of);
-        }
-        assert!(Spectra::of(groom.strands()).len() <= strands, "{name}");
-        let options = RenderOptions { size: Size::new(64, 48), ..RenderOptions::default() };
-        // A groom without a point that can be seen is an error, not a panic.
-        let _ = render(&groom, &Coloring::Natural, &options);
+fn analyse_and_picture(name: &str, groom: &Groom) {
+    let strands = groom.strands().len();
+    let analysis = Analysis::of(groom);
+    assert!(analysis.summary().strands <= strands, "{name}");
+    assert_eq!(Wisps::of(groom, &analysis).wisp.len(), strands, "{name}");
+    let _ = defects(groom);
+    let _ = compare([groom, groom], [&analysis, &analysis]);
+    for of in Quantity::ALL {
+        let _ = analysis.values(of);
     }
+    assert!(Spectra::of(groom.strands()).len() <= strands, "{name}");
+    let options = RenderOptions { size: Size::new(64, 48), ..RenderOptions::default() };
+    // A groom without a point that can be seen is an error, not a panic.
+    let _ = render(groom, &Coloring::Natural, &options);
 }
 
-#[test]
-fn no_strand_is_lost_by_a_fit() {
-    for (name, groom) in grooms() {
-        let counts: Vec<usize> = groom.strands().counts().collect();
-        for elements in [FitOptions::default().elements, Elements::Count(12)] {
-            let options = FitOptions { elements, ..FitOptions::default() };
-            let fitted = fit(&groom, &options).expect("sound options");
-            assert_eq!(fitted.helices.len(), counts.len(), "{name}");
-            let back = sample(&fitted.helices, &Sampling::Counts(&counts)).expect("as many");
-            assert_eq!(back.strands().counts().collect::<Vec<_>>(), counts, "{name}");
-        }
-        let fitted = helicoid::fit(&groom, &helicoid::FitOptions::default()).expect("sound");
-        assert_eq!(fitted.hairs.len(), counts.len(), "{name}");
+fn fit_and_sample(name: &str, groom: &Groom) {
+    let counts: Vec<usize> = groom.strands().counts().collect();
+    for elements in [FitOptions::default().elements, Elements::Count(12)] {
+        let options = FitOptions { elements, ..FitOptions::default() };
+        let fitted = fit(groom, &options).expect("sound options");
+        assert_eq!(fitted.helices.len(), counts.len(), "{name}");
+        let back = sample(&fitted.helices, &Sampling::Counts(&counts)).expect("as many");
+        assert_eq!(back.strands().counts().collect::<Vec<_>>(), counts, "{name}");
     }
+    let fitted = helicoid::fit(groom, &helicoid::FitOptions::default()).expect("sound");
+    assert_eq!(fitted.hairs.len(), counts.len(), "{name}");
 }
 
-#[test]
-fn every_format_writes_what_it_reads_or_says_why_not() {
+/// A groom that a format has no place for is refused; of some that are written the reader says what
+/// is wrong.
+fn write_and_read(name: &str, groom: &Groom) {
     let folder = tempfile::tempdir().expect("a folder");
-    for (name, groom) in grooms() {
-        for format in Format::ALL {
-            let path = folder.path().join("groom").with_extension(format.extension());
-            if tress::io::write(&path, &groom, &WriteOptions::default()).is_err() {
-                continue;
-            }
-            let read = tress::io::read(&path);
-            // What was written for a strand without points some formats do not read.
-            if let Ok(Model::Polylines(read)) = read {
-                assert_eq!(read.strands().len(), groom.strands().len(), "{name}, {format:?}");
-            }
+    for format in Format::ALL {
+        let path = folder.path().join("groom").with_extension(format.extension());
+        if tress::io::write(&path, groom, &WriteOptions::default()).is_err() {
+            continue;
+        }
+        if let Ok(Model::Polylines(read)) = tress::io::read(&path) {
+            assert_eq!(read.strands().len(), groom.strands().len(), "{name}, {format:?}");
         }
     }
 }
 
-#[test]
-fn hair_is_grown_and_grooms_begun_or_refused() {
-    for (name, groom) in grooms() {
-        let roots: Vec<DVec3> =
-            groom.strands().iter().filter_map(|points| points.first().copied()).collect();
-        let coils = || Coils::shipped().expect("the library that comes along");
-        if let Ok(grown) = grow(groom.strands(), &roots, coils(), &GrowOptions::default(), 1) {
-            assert_eq!(grown.strands().len(), roots.len(), "{name}");
-        }
-        let (even, _) = EvenStrands::resampled(&groom, 12).expect("points enough");
-        let roots = Roots { positions: roots, uv: None };
-        if let Ok(mut begun) = ProceduralGroom::new(even, roots) {
-            begun.chain.operators = operators();
-            begun.draw_missing();
-            let _ = begun.build();
-        }
-        let chain = Chain { operators: operators(), ..Chain::default() };
-        let options = StageOptions { guides: 2, points: Some(12), ..StageOptions::default() };
-        if let Ok(mut fitter) = Fitter::new(&groom, chain, options) {
-            let _ = fitter.advance(&mut |_| {}).and_then(|_| fitter.advance(&mut |_| {}));
-        }
+fn grow_and_begin(name: &str, groom: &Groom) {
+    let roots: Vec<DVec3> =
+        groom.strands().iter().filter_map(|points| points.first().copied()).collect();
+    let coils = Coils::shipped().expect("the library that comes along");
+    if let Ok(grown) = grow(groom.strands(), &roots, coils, &GrowOptions::default(), 1) {
+        assert_eq!(grown.strands().len(), roots.len(), "{name}");
+    }
+    let (even, _) = EvenStrands::resampled(groom, 12).expect("points enough");
+    let roots = Roots { positions: roots, uv: None };
+    if let Ok(mut begun) = ProceduralGroom::new(even, roots) {
+        begun.chain.operators = operators();
+        begun.draw_missing();
+        let _ = begun.build();
+    }
+    let chain = Chain { operators: operators(), ..Chain::default() };
+    let options = StageOptions { guides: 2, points: Some(12), ..StageOptions::default() };
+    if let Ok(mut fitter) = Fitter::new(groom, chain, options) {
+        let _ = fitter.advance(&mut |_| {}).and_then(|_| fitter.advance(&mut |_| {}));
     }
 }
 
@@ -189,73 +179,151 @@ fn operators() -> Vec<Operator> {
     ]
 }
 
-#[test]
-fn super_helices_are_analysed_and_edited() {
-    for (name, groom) in helices() {
-        assert_eq!(summarize(&groom).strands, 3, "{name}");
-        for of in Quantity::ALL {
-            let _ = quantity(&groom, of);
-        }
-        let clusters = groups(&groom, &Grouping::Clusters(2), 1).expect("more strands");
-        let options = RuffleOptions { probability: 0.5, keep: 2, ..RuffleOptions::default() };
-        let (ruffled, _) = ruffle(&groom, &clusters, &options, 1).expect("sound options");
-        for space in [BlendSpace::Curvature, BlendSpace::Darboux] {
-            blend(&groom, &ruffled, 0.5, space).expect("as many elements");
-        }
-        for keep in [RecoilKeep::Length, RecoilKeep::Turns, RecoilKeep::Advance] {
-            let options = RecoilOptions { radius: 2.0, frequency: 0.5, keep };
-            let mut wide = recoil(&groom, &options).expect("sound options");
-            let _ = hold_centerlines(&groom, &mut wide);
-        }
-        let placing = Placing::Density(0.2);
-        let placed = insert(&groom, &clusters, &placing, &InsertOptions::default(), 1);
-        if let Ok((changed, _)) = placed {
-            assert_eq!(changed.len(), 3, "{name}");
-        }
-        for how in [Sampling::Points(9), Sampling::PerTurn(8.0), Sampling::Spacing(0.1)] {
-            if let Ok(points) = sample(&groom, &how) {
-                assert_eq!(points.strands().len(), 3, "{name}");
-            }
-        }
-        let _ = helicoid::from_helices(&groom, &helicoid::FitOptions::default());
+fn edit(name: &str, groom: &HelixGroom) {
+    assert_eq!(summarize(groom).strands, groom.len(), "{name}");
+    for of in Quantity::ALL {
+        let _ = quantity(groom, of);
     }
+    let clusters = groups(groom, &Grouping::Clusters(2), 1).expect("more strands");
+    let options = RuffleOptions { probability: 0.5, keep: 2, ..RuffleOptions::default() };
+    let (ruffled, _) = ruffle(groom, &clusters, &options, 1).expect("sound options");
+    for space in [BlendSpace::Curvature, BlendSpace::Darboux] {
+        blend(groom, &ruffled, 0.5, space).expect("as many elements");
+    }
+    for keep in [RecoilKeep::Length, RecoilKeep::Turns, RecoilKeep::Advance] {
+        let options = RecoilOptions { radius: 2.0, frequency: 0.5, keep };
+        let mut wide = recoil(groom, &options).expect("sound options");
+        let _ = hold_centerlines(groom, &mut wide);
+    }
+    let placing = Placing::Density(0.2);
+    if let Ok((changed, _)) = insert(groom, &clusters, &placing, &InsertOptions::default(), 1) {
+        assert_eq!(changed.len(), groom.len(), "{name}");
+    }
+    for how in [Sampling::Points(9), Sampling::PerTurn(8.0), Sampling::Spacing(0.1)] {
+        if let Ok(points) = sample(groom, &how) {
+            assert_eq!(points.strands().len(), groom.len(), "{name}");
+        }
+    }
+    let _ = helicoid::from_helices(groom, &helicoid::FitOptions::default());
+}
+
+fn sculpt_all(name: &str, groom: &HelixGroom) {
+    let n = groom.len();
+    if let Ok(mut pose) = armature(groom, &ArmatureOptions::default()) {
+        pose.clusters.blend = 0.5;
+        for joint in pose.groups.iter_mut().flat_map(|group| &mut group.joints) {
+            joint.translate = DVec3::X;
+        }
+        if let Ok(controls) = apply_pose(groom, &pose) {
+            let mut moved = groom.clone();
+            let _ = sculpt(&mut moved, &controls, &SculptOptions::default());
+            assert_eq!(moved.len(), n, "{name}");
+        }
+    }
+    let tip = |i: usize| Control::new(groom.strand(i).length(), DVec3::ONE);
+    let controls = Strands::from_counts(vec![1; n], (0..n).map(tip).collect()).expect("one each");
+    let _ = sculpt(&mut groom.clone(), &controls, &SculptOptions::default());
+    for strand in groom.iter() {
+        let here = [Control::new(0.0, strand.root.position)];
+        let _ = tress::optimize::solve(&strand, &here, &SculptOptions::default());
+    }
+}
+
+fn keep_in_a_file(name: &str, groom: &HelixGroom) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("groom.tress");
+    tress::io::write_helices(&path, groom).expect("a writable folder");
+    if let Ok(Model::Helices(read)) = tress::io::read(&path) {
+        assert_eq!(read.len(), groom.len(), "{name}");
+    }
+}
+
+#[test]
+fn polylines_are_analysed_and_pictured() {
+    grooms().iter().for_each(|(name, groom)| analyse_and_picture(name, groom));
+}
+
+#[test]
+fn no_strand_is_lost_by_a_fit() {
+    grooms().iter().for_each(|(name, groom)| fit_and_sample(name, groom));
+}
+
+#[test]
+fn files_hold_all_strands_or_say_why_not() {
+    grooms().iter().for_each(|(name, groom)| write_and_read(name, groom));
+}
+
+#[test]
+fn hair_is_grown_and_grooms_begun_or_refused() {
+    grooms().iter().for_each(|(name, groom)| grow_and_begin(name, groom));
+}
+
+#[test]
+fn super_helices_are_edited() {
+    helices().iter().for_each(|(name, groom)| edit(name, groom));
 }
 
 #[test]
 fn super_helices_are_sculpted() {
-    for (name, groom) in helices() {
-        let pose = armature(&groom, &ArmatureOptions::default());
-        if let Ok(mut pose) = pose {
-            pose.clusters.blend = 0.5;
-            for joint in pose.groups.iter_mut().flat_map(|group| &mut group.joints) {
-                joint.translate = DVec3::X;
-            }
-            let controls = apply_pose(&groom, &pose);
-            if let Ok(controls) = controls {
-                let mut moved = groom.clone();
-                let _ = sculpt(&mut moved, &controls, &SculptOptions::default());
-                assert_eq!(moved.len(), 3, "{name}");
-            }
-        }
-        let tip = |i: usize| vec![Control::new(groom.strand(i).length(), DVec3::ONE)];
-        let controls = Strands::from_counts([1; 3], (0..3).flat_map(tip).collect()).expect("three");
-        let _ = sculpt(&mut groom.clone(), &controls, &SculptOptions::default());
-        for i in 0..3 {
-            let here = [Control::new(0.0, groom.strand(i).root.position)];
-            let _ = tress::optimize::solve(&groom.strand(i), &here, &SculptOptions::default());
-        }
-    }
+    helices().iter().for_each(|(name, groom)| sculpt_all(name, groom));
 }
 
 #[test]
 fn super_helices_come_back_from_their_file() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("groom.tress");
-    for (name, groom) in helices() {
-        tress::io::write_helices(&path, &groom).expect("a writable folder");
-        if let Ok(Model::Helices(read)) = tress::io::read(&path) {
-            assert_eq!(read.len(), 3, "{name}");
-        }
+    helices().iter().for_each(|(name, groom)| keep_in_a_file(name, groom));
+}
+
+/// Any number at all, ordinary ones more often than others.
+fn number() -> impl Strategy<Value = f64> {
+    let any = num::f64::ANY;
+    prop_oneof![6 => -2.0..2.0, 1 => any, 1 => (-1e4..1e4_f64).prop_map(f64::round)]
+}
+
+fn vector() -> impl Strategy<Value = DVec3> {
+    [number(), number(), number()].prop_map(DVec3::from_array)
+}
+
+fn any_groom() -> impl Strategy<Value = Groom> {
+    let strand = prop_oneof![
+        collection::vec(vector(), 0..30),
+        (0..60_u32, number(), vector()).prop_map(|(n, size, at)| coil(n, size, at)),
+    ];
+    collection::vec(strand, 0..6).prop_map(|all| {
+        let mut strands = Strands::default();
+        all.into_iter().for_each(|points| strands.push(points).expect("few points"));
+        Groom::new(strands)
+    })
+}
+
+fn any_helices() -> impl Strategy<Value = HelixGroom> {
+    let element =
+        (vector(), number()).prop_map(|(curvature, length)| Element { curvature, length });
+    let strand = (vector(), collection::vec(element, 0..12));
+    collection::vec(strand, 2..6).prop_map(|strands| {
+        let (roots, elements): (Vec<DVec3>, Vec<Vec<Element>>) = strands.into_iter().unzip();
+        let at = |position: DVec3| Frame { position, ..Frame::IDENTITY };
+        let mut all = Strands::default();
+        elements.into_iter().for_each(|strand| all.push(strand).expect("few elements"));
+        HelixGroom::new(roots.into_iter().map(at).collect(), all).expect("a root each")
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_polylines(groom in any_groom()) {
+        analyse_and_picture("any", &groom);
+        fit_and_sample("any", &groom);
+        write_and_read("any", &groom);
+        grow_and_begin("any", &groom);
+    }
+
+    #[test]
+    fn any_super_helices(groom in any_helices()) {
+        edit("any", &groom);
+        sculpt_all("any", &groom);
+        keep_in_a_file("any", &groom);
     }
 }
 

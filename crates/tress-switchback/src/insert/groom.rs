@@ -114,8 +114,8 @@ pub fn insert(
     Ok((assemble(groom, changed)?, report))
 }
 
-/// Places that are drawn for a strand, at most: far more than there is room for.
-const MOST_PLACES: f64 = 1e5;
+/// Places that are drawn for a strand, at most: far more than any hair has.
+const MOST_PLACES: f64 = 1e3;
 
 impl Placing {
     fn validate(&self) -> Result<(), InsertError> {
@@ -145,7 +145,7 @@ impl Placing {
             Self::Shares(shares) => shares.iter().map(|share| share * length).collect(),
             Self::Density(density) if MOST_PLACES < density * length => {
                 let (name, value) = ("the number of switchbacks on a strand", density * length);
-                return Err(InsertError::Option { name, value, expected: "100,000 at most" });
+                return Err(InsertError::Option { name, value, expected: "1,000 at most" });
             }
             Self::Density(density) => {
                 // Gaps of a Poisson process; none where nothing is asked for.

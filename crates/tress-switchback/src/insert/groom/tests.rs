@@ -37,12 +37,12 @@ fn strands_of_a_wisp_get_theirs_at_the_same_places() {
 
 #[test]
 fn a_density_is_how_many_there_are_in_a_unit_of_length() {
-    let places = |density| Placing::Density(density).places(4000.0, strand_rng(5, 0));
+    let places = |density| Placing::Density(density).places(1600.0, strand_rng(5, 0));
     assert_eq!(places(0.0).expect("few"), [0.0; 0]);
     let places = places(0.5).expect("few");
-    assert!(places.is_sorted() && places.iter().all(|s| (0.0..4000.0).contains(s)));
-    // 2000 are expected, with a deviation of 45.
-    assert!((1800..2200).contains(&places.len()), "{}", places.len());
+    assert!(places.is_sorted() && places.iter().all(|s| (0.0..1600.0).contains(s)));
+    // 800 are expected, with a deviation of 28.
+    assert!((690..910).contains(&places.len()), "{}", places.len());
 }
 
 #[test]
