@@ -6,6 +6,8 @@
 
 use std::time::Instant;
 
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 use tress::geometry::Groom;
 use tress::procedural::fit::{Fitter, Stage, StageOptions};
 use tress::procedural::synthetic::{COUNT, Known, known};
@@ -26,6 +28,7 @@ pub(crate) const NAMES: &[&str] = &[
     "inverse_peak_gigabytes",
     "inverse_worst_error",
     "inverse_worst_of_truth",
+    "inverse_starts_apart",
 ];
 
 /// The share of strands that is fitted in a quick run.
@@ -37,6 +40,7 @@ pub(crate) fn run(figures: &mut Figures) -> Outcome {
     recover_all(figures, if full { 1.0 } else { SHARE })?;
     if full {
         growth(figures)?;
+        starts(figures)?;
     }
     Ok(())
 }
@@ -76,7 +80,7 @@ fn recover_all(figures: &mut Figures, share: f64) -> Outcome {
     let mut peak: f64 = 0.0;
     for style in 0..COUNT {
         let known = known(style, share)?;
-        let ((groom, seconds), bytes) = held(|| fitted(&known))?;
+        let ((groom, seconds), bytes) = held(|| fitted(&known, &known.start))?;
         peak = peak.max(bytes.unwrap_or(0.0));
         let (strands, distance) = (known.groom.roots.len(), known.guides_off(&groom));
         let what = known.name;
@@ -102,18 +106,55 @@ fn recover_all(figures: &mut Figures, share: f64) -> Outcome {
 /// Seconds of the first groom at a quarter and at all of its strands.
 fn growth(figures: &mut Figures) -> Outcome {
     for (share, name) in [(0.25, "inverse_7k_seconds"), (1.0, "inverse_28k_seconds")] {
-        let (_, seconds) = fitted(&known(0, share)?)?;
+        let known = known(0, share)?;
+        let (_, seconds) = fitted(&known, &known.start)?;
         figures.add(name, seconds, "s", Bar::None);
     }
     Ok(())
 }
 
+/// How far parameters are apart that were found from starts drawn at random, waves and curls.
+fn starts(figures: &mut Figures) -> Outcome {
+    let mut worst: f64 = 0.0;
+    for style in [0, 1] {
+        let known = known(style, SHARE)?;
+        let (given, _) = fitted(&known, &known.start)?;
+        for seed in 1..=3 {
+            let (found, _) = fitted(&known, &anywhere(&known.groom.chain, seed))?;
+            let pairs = given.chain.operators.iter().zip(&found.chain.operators);
+            let values = pairs.flat_map(|(a, b)| a.values().into_iter().zip(b.values()));
+            let apart = values.map(|(a, b)| 100.0 * (a - b).abs() / a).fold(0.0, f64::max);
+            say(&format!("# {}, start {seed}: parameters {apart:.2} % apart", known.name));
+            worst = worst.max(apart);
+        }
+    }
+    figures.add("inverse_starts_apart", worst, "%", Bar::None);
+    Ok(())
+}
+
+/// Where a search may begin: sizes and frequencies up to eight times too great or too small, all
+/// else anywhere in its range.
+fn anywhere(truth: &Chain, seed: u64) -> Chain {
+    let mut rng = Pcg64Mcg::seed_from_u64(seed);
+    let mut chain = truth.clone();
+    for operator in &mut chain.operators {
+        for (parameter, value) in operator.parameters().iter().zip(operator.values_mut()) {
+            *value = if parameter.greatest.is_finite() {
+                rng.random_range(parameter.least..2.0 * parameter.typical)
+            } else {
+                *value * 8_f64.powf(rng.random_range(-1.0..1.0))
+            };
+        }
+    }
+    chain
+}
+
 /// The groom found from its strands alone, and the seconds of all stages.
-fn fitted(known: &Known) -> Outcome<(ProceduralGroom, f64)> {
+fn fitted(known: &Known, start: &Chain) -> Outcome<(ProceduralGroom, f64)> {
     let target: Groom = known.groom.build_groom()?;
     let options = StageOptions { own_weights: false, ..StageOptions::default() };
     let started = Instant::now();
-    let mut fitter = Fitter::new(&target, known.start.clone(), options)?;
+    let mut fitter = Fitter::new(&target, start.clone(), options)?;
     while fitter.advance(&mut |_| {})? != Stage::Done {}
     let seconds = started.elapsed().as_secs_f64();
     let groom = fitter.groom().ok_or("nothing was found")?;
