@@ -28,9 +28,13 @@ pub enum Model {
 /// [`ReadError`]. The message is one line that begins with the path.
 pub fn read(path: impl AsRef<Path>) -> Result<Model, ReadError> {
     let path = path.as_ref();
-    // A folder has no extension either, but that is not what is wrong with it.
-    let file = open(path).map_err(|source| ReadError::Open { path: path.into(), source })?;
-    let format = Format::from_path(path)?;
+    let cannot_open = |source| ReadError::Open { path: path.into(), source };
+    let format = match Format::from_path(path) {
+        // That it has no extension is not what is wrong with a folder.
+        Err(_) if path.is_dir() => return Err(cannot_open(io::ErrorKind::IsADirectory.into())),
+        format => format?,
+    };
+    let file = open(path).map_err(cannot_open)?;
     read_as(format, path, file).map_err(|source| ReadError::Parse { path: path.into(), source })
 }
 

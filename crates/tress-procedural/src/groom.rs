@@ -272,8 +272,11 @@ impl ProceduralGroom {
         named("operator guide", &self.operator_guides, guides)?;
         named("strand", &self.operator_of, self.operator_guides.len())?;
         if let Some(instances) = &self.instances {
+            if instances.each == 0 {
+                return Err(BuildError::Count { what: "guides a strand", given: 0, expected: 1 });
+            }
             let given = instances.guides.len();
-            let expected = strands * instances.each;
+            let expected = strands.saturating_mul(instances.each);
             if given != expected || instances.weights.len() != expected {
                 return Err(BuildError::Count { what: "instancing weights", given, expected });
             }

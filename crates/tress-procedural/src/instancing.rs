@@ -29,7 +29,7 @@ pub enum Instancing {
 /// The guides of each strand and their weights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instances {
-    /// Guides a strand is blended from.
+    /// Guides a strand is blended from, at least 1.
     pub each: usize,
     /// `each` guides for every strand, nearest first.
     pub guides: Vec<u32>,
@@ -158,7 +158,7 @@ impl Instances {
     /// How many strands there are.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.guides.len() / self.each
+        self.guides.len().checked_div(self.each).unwrap_or(0)
     }
 
     /// Whether there are none.

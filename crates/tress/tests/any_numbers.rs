@@ -8,15 +8,17 @@ use tress::edit::{
 };
 use tress::fit::{Elements, FitOptions, Sampling, Spectra, fit, sample};
 use tress::geometry::glam::DVec3;
-use tress::geometry::{Element, Frame, Groom, HelixGroom, Strands};
-use tress::grow::{Coils, GrowOptions, grow};
+use tress::geometry::{Element, Frame, Groom, HelixGroom, Mesh, Strands};
+use tress::grow::{Coils, Density, GrowOptions, grow, scatter};
 use tress::helicoid::{self, Helicoid, HelicoidGroom, Piece, Tracing};
 use tress::io::{Format, Model, WriteOptions};
 use tress::optimize::{
     ArmatureOptions, Control, SculptOptions, apply_pose, armature, hold_centerlines, sculpt,
 };
-use tress::procedural::fit::{Fitter, StageOptions};
-use tress::procedural::{Chain, Clump, Curl, EvenStrands, Operator, ProceduralGroom, Roots, Scale};
+use tress::procedural::fit::{Fitter, StageOptions, avoid_head};
+use tress::procedural::{
+    Chain, Clump, Curl, EvenStrands, Operator, ProceduralGroom, Roots, Scale, Surface,
+};
 use tress::switchback::{InsertOptions, Placing, insert};
 use tress::view::{Coloring, RenderOptions, Size, render};
 
@@ -238,6 +240,23 @@ fn keep_in_a_file(name: &str, groom: &HelixGroom) {
     }
 }
 
+fn grow_on(mesh: &Mesh) {
+    for density in [Density::Even, Density::Vertices(&vec![0.5; mesh.positions().len()])] {
+        if let Ok(roots) = scatter(mesh, 30, density, 1) {
+            assert_eq!(roots.len(), 30);
+        }
+    }
+    let guides = EvenStrands::new(2, vec![DVec3::ZERO, DVec3::Y, DVec3::X, DVec3::ONE]);
+    let roots = Roots { positions: vec![DVec3::ZERO, DVec3::splat(0.5), DVec3::X], uv: None };
+    let groom = ProceduralGroom::new(guides.expect("whole strands"), roots);
+    let mut groom = groom.expect("numbers that are well");
+    if let Ok(scalp) = Surface::new(mesh) {
+        groom.instance_over(&scalp, 2, 0.5).expect("a positive sigma");
+    }
+    let _ = avoid_head(&mut groom, mesh);
+    assert_eq!(groom.build().expect("a groom").len(), 3);
+}
+
 #[test]
 fn polylines_are_analysed_and_pictured() {
     grooms().iter().for_each(|(name, groom)| analyse_and_picture(name, groom));
@@ -295,6 +314,13 @@ fn any_groom() -> impl Strategy<Value = Groom> {
     })
 }
 
+fn any_mesh() -> impl Strategy<Value = Mesh> {
+    let corner = 0..12_u32;
+    let triangles = collection::vec([corner.clone(), corner.clone(), corner], 0..20);
+    (collection::vec(vector(), 12), triangles)
+        .prop_map(|(positions, triangles)| Mesh::new(positions, triangles).expect("its corners"))
+}
+
 fn any_helices() -> impl Strategy<Value = HelixGroom> {
     let element =
         (vector(), number()).prop_map(|(curvature, length)| Element { curvature, length });
@@ -321,6 +347,11 @@ proptest! {
         fit_and_sample("any", &groom);
         write_and_read("any", &groom);
         grow_and_begin("any", &groom);
+    }
+
+    #[test]
+    fn any_meshes(mesh in any_mesh()) {
+        grow_on(&mesh);
     }
 
     #[test]

@@ -135,6 +135,16 @@ fn guides_over_a_scalp_are_stored_with_the_groom() {
 }
 
 #[test]
+fn strands_of_no_guides_are_refused() {
+    let mut groom = groom();
+    let strands = groom.roots.len();
+    let guides = vec![0; strands];
+    groom.instances = Some(crate::Instances { each: 0, guides, weights: vec![1.0; strands] });
+    let error = BuildError::Count { what: "guides a strand", given: 0, expected: 1 };
+    assert_eq!(groom.build(), Err(error));
+}
+
+#[test]
 fn parts_that_do_not_fit_are_refused() {
     let mut wrong = groom();
     wrong.operator_of[7] = 40;
