@@ -23,6 +23,23 @@ fn bytes(path: &Path) -> Vec<u8> {
 }
 
 #[test]
+fn the_demo_makes_all_that_it_names() {
+    let bench = Bench::new();
+    let text = bench.done("demo made");
+    assert!(text.contains("660 strands"), "{text}");
+    for file in ["before-after.png", "analysis.html", "sculpted.hair", "patch.tress"] {
+        assert!(text.contains(file), "{file} is not named in:\n{text}");
+        assert!(!bytes(&bench.path("made").join(file)).is_empty(), "{file}");
+    }
+    let before = bench.groom("made/patch.hair");
+    for file in ["made/ruffled.hair", "made/sculpted.hair", "made/ruffled.usda"] {
+        let after = bench.groom(file);
+        assert!(before.strands().counts().eq(after.strands().counts()), "{file}");
+        assert_ne!(before.strands().points(), after.strands().points(), "{file}");
+    }
+}
+
+#[test]
 fn info_says_what_a_groom_is_like() {
     let bench = Bench::new();
     let text = bench.done("info groom.obj");
