@@ -30,6 +30,24 @@ pub enum EvenError {
         /// Points a strand asked for.
         points_each: usize,
     },
+    /// More points than memory holds.
+    ///
+    /// ```
+    /// # use glam::DVec3;
+    /// # use tress_geometry::{Groom, Strands};
+    /// # use tress_procedural::{EvenError, EvenStrands};
+    /// let strands = Strands::from_counts([2], vec![DVec3::ZERO, DVec3::Y])?;
+    /// let error = EvenStrands::resampled(&Groom::new(strands), usize::MAX);
+    /// assert_eq!(error, Err(EvenError::NoMemory { strands: 1, points_each: usize::MAX }));
+    /// # Ok::<(), tress_geometry::OffsetsError>(())
+    /// ```
+    #[error("there is no memory for {strands} strands of {points_each} points")]
+    NoMemory {
+        /// Strands that were to be resampled.
+        strands: usize,
+        /// Points a strand asked for.
+        points_each: usize,
+    },
     /// The points do not divide into strands.
     ///
     /// ```
@@ -94,7 +112,7 @@ impl EvenStrands {
     ///
     /// # Errors
     ///
-    /// If fewer than two points are asked for.
+    /// If fewer than two points are asked for, or more than there is memory for.
     pub fn resampled(groom: &Groom, points_each: usize) -> Result<(Self, Vec<usize>), EvenError> {
         if points_each < 2 {
             return Err(EvenError::TooFew { points_each });
@@ -102,7 +120,12 @@ impl EvenStrands {
         let strands = groom.strands();
         let sound: Vec<usize> =
             (0..strands.len()).filter(|&i| defect(strands.strand(i)).is_none()).collect();
-        let mut even = Self::zeros(sound.len(), points_each);
+        let none = EvenError::NoMemory { strands: sound.len(), points_each };
+        let total = sound.len().checked_mul(points_each).ok_or(none)?;
+        let mut points = Vec::new();
+        points.try_reserve_exact(total).map_err(|_| none)?;
+        points.resize(total, DVec3::ZERO);
+        let mut even = Self { points_each, points };
         even.points
             .par_chunks_mut(points_each)
             .zip(&sound)

@@ -168,6 +168,7 @@ fn mistakes_are_told_in_one_line_and_leave_files_alone() {
         ("groom fit groom.obj out.ron --report out.txt", 2, "written to a .html file"),
         ("groom build empty.ron out.tress", 2, "a .tress file holds super-helices"),
         ("render groom.obj out.jpg", 2, "pictures are written to a .png file"),
+        ("groom fit groom.obj out.ron --guides 2 --points 99999999999", 1, "there is no memory"),
         ("groom fit groom.obj nowhere/out.ron", 1, "there is no folder nowhere"),
         ("groom new none.obj out.ron --roots groom.obj", 1, "none.obj: no strand is a guide"),
         ("convert groom.obj out.tfx", 1, "--points"),
